@@ -96,7 +96,7 @@ void design_contact(Study &study)
 {
    DesignScene chosen;
    DesignChoice choice;
-   std::string march_by = "advancing";
+   SteppingOptions stepping;
    int lines = 0, starts = 1;
    DesignSettings settings;
    study.option(&chosen.scene, "scene", "Pad on a half-plane, or square punch on one.",
@@ -127,7 +127,7 @@ void design_contact(Study &study)
                 at_least(9));
    study.option(&settings.march.increments, "increments",
                 "Increments between two points of the history.", at_least(1));
-   study.option(&march_by, "stepping", stepping_help, stepping_choices);
+   stepping.declare(study);
    study.option(&settings.tolerance, "tolerance", "Of the conditions of optimality.",
                 between(0, 1));
    study.option(&lines, "lines", "Steps of a sweep along each variable.", at_least(0));
@@ -150,7 +150,7 @@ void design_contact(Study &study)
    study.option(&choice.zones, "zones", "Of --coat, of equal lengths, of each line.",
                 at_least(1));
    study.parse();
-   settings.march.stepping = stepping(march_by);
+   stepping.set(settings.march);
    const bool saved = !chosen.file.empty(), own_gap = choice.what() == "gap",
               free = own_gap && choice.profile == "free";
    study.only_if(saved, {"history", "from"}, "is of --reduced");

@@ -8,7 +8,7 @@
 //
 //  Sample runs:  lap_joint
 //                lap_joint -friction 0.5 -load -0.04 -touch
-//                lap_joint -march exact
+//                lap_joint -stepping fixed
 //                lap_joint -sweep-load "-0.03 0.04" -sweep-friction "0.2 0.8"
 //                lap_joint -sweep-load 0.04 -sweep-width "0.5 1 2" -spacing 0.01
 //                lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025
@@ -261,7 +261,8 @@ void lap_joint(Study &study)
    Joint joint;
    LapJointOptions &options = joint.options;
    options.spacing = 0.005;
-   std::string tightening, march_by = "advancing";
+   std::string tightening;
+   SteppingOptions stepping;
    std::vector<double> loads, frictions, widths;
    bool touch = false, all_cycles = false;
    study.option(&options.widths[0], "width", "Width w of the pinch pressure, in t.");
@@ -281,7 +282,8 @@ void lap_joint(Study &study)
                 "March all cycles.");
    study.option(&joint.settings.increments, "increments",
                 "Load increments from 0 to Tmax, and as many back.", at_least(1));
-   study.option(&march_by, "march", stepping_help, stepping_choices);
+   stepping.declare_with_events(study);
+   study.options().renamed("march", "stepping");
    study.option(&touch, "touch", "Find the compression at which the free ends touch.");
    study.option(&options.bolts, "bolts", "Positions of the bolts, in t.");
    study.option(&tightening, "tightening",
@@ -308,7 +310,7 @@ void lap_joint(Study &study)
    study.only_if(!loads.empty(), {"sweep-friction", "sweep-width"}, "goes with --sweep-load");
    study.only_if(!joint.paraview.empty(), {"frames"}, "goes with --paraview");
    study.only_if(bolts > 1, {"tightening", "snug"}, "is of several --bolts");
-   joint.settings.stepping = stepping(march_by);
+   stepping.set(joint.settings);
    joint.settings.stop_at_steady_state = !all_cycles;
    if (frictions.empty()) { frictions = {joint.friction}; }
    if (widths.empty()) { widths = {options.widths[0]}; }

@@ -9,7 +9,7 @@
 //
 //  Sample runs:  plane_receding
 //                plane_receding -domain 1e4 -unload "0.9 0.5 0.2 0.1" -steps 50
-//                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -march exact
+//                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1"
 //                plane_receding -obstacle th0 -friction 0.3 -order 1 -spacing 0.04
 //                plane_receding -domain 1e4 -overhang 0.8 -friction 1.4
 //                plane_receding -domain 1e4 -overhang 0.8 -bonded "0.1 0.18 0.3 0.5 0.8"
@@ -183,7 +183,8 @@ void domain_study(Study &study, RecedingOptions options, double overhang, double
 void plane_receding(Study &study)
 {
    RecedingOptions options;
-   std::string obstacle = "half-plane", march_by = "advancing";
+   std::string obstacle = "half-plane";
+   SteppingOptions stepping;
    double friction = 0.7;
    double overhang = 4;
    std::vector<double> map_n, map_f = {0.3, 0.5, 0.7, 1}, bonded_n, cycled,
@@ -211,7 +212,8 @@ void plane_receding(Study &study)
    study.option(&unloading.wanted, "unload", "Unloading: list of p/p0 to report (empty: none).",
                 between(0, 1));
    study.option(&unloading.steps, "steps", "Unloading: steps of 1/steps of p0.", at_least(2));
-   study.option(&march_by, "march", stepping_help, stepping_choices);
+   stepping.declare_with_events(study);
+   study.options().renamed("march", "stepping");
    study.option(&unloading.lowest, "lowest",
                 "Unloading: p/p0 at which it ends; steps shrink toward it.", between(0, 1));
    study.option(&slipping, "slip", "Unloading: list of ξ/t whose slip is followed.");
@@ -265,7 +267,7 @@ void plane_receding(Study &study)
    }
    if (!unloading.wanted.empty())
    {
-      run.settings.stepping = stepping(march_by);
+      stepping.set(run.settings);
       unload(study, run, overhang, unloading, slipping);
    }
    else

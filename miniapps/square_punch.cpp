@@ -10,7 +10,7 @@
 //                square_punch -obstacle half-plane --shear none -dislocation "0 0.7"
 //                square_punch -order 1 -nodes 201 -grading 0.02
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
-//                square_punch -obstacle half-plane -nodes 65 -cycles 3 -march exact
+//                square_punch -obstacle half-plane -nodes 65 -cycles 3
 //                square_punch -friction 0 -nodes 33 -shear none
 //                square_punch -shear none -cycles 2
 
@@ -67,7 +67,8 @@ void square_punch(Study &study)
 {
    PunchOptions options;
    MarchSettings settings;
-   std::string obstacle = "rigid", march_by = "advancing";
+   std::string obstacle = "rigid";
+   SteppingOptions stepping;
    double friction = none, amplitude = 0.8;
    std::vector<double> shear = {0.25, 0.5, 0.75, 0.9}, jumps;
    int cycles = 0;
@@ -85,13 +86,14 @@ void square_punch(Study &study)
    study.option(&amplitude, "amplitude", "Amplitude of the cycles in Q/fP.");
    study.option(&settings.increments, "increments",
                 "Load increments between two values of the shear.", at_least(1));
-   study.option(&march_by, "march", stepping_help, stepping_choices);
+   stepping.declare_with_events(study);
+   study.options().renamed("march", "stepping");
    study.parse();
    study.only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
    options.half_plane = obstacle == "half-plane";
    if (std::isnan(friction)) { friction = options.half_plane ? 0.4 : 0.2; }
    study.results["friction"] = friction;
-   settings.stepping = stepping(march_by);
+   stepping.set(settings);
    if (friction == 0)
    {
       require(shear.empty() || !study.options().says("shear"),

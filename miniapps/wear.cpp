@@ -53,8 +53,8 @@ bool path_is_straight(const ReducedProblem &problem, const LoadHistory &history)
 void wear_contact(Study &study)
 {
    WearingPad pad;
-   std::string file, history_text, update = "cycle", march_by = "advancing", save_state,
-                                   load_state;
+   SteppingOptions stepping;
+   std::string file, history_text, update = "cycle", save_state, load_state;
    double shear = none, friction = none, coefficient = 1e-2, threshold = 0;
    bool of_energy = false;
    double cycles = 1000;
@@ -94,7 +94,7 @@ void wear_contact(Study &study)
                 "Load increments between two points of the history; 0: 1 where slip goes "
                 "straight (the pads; B = 0 and the same normal loads all cycle), else 20.",
                 at_least(0));
-   study.option(&march_by, "stepping", stepping_help, stepping_choices);
+   stepping.declare(study);
    study.option(&file, "reduced", "Reduced problem, in place of the pad.", Text::input);
    study.option(&history_text, "history",
                 "With --reduced: load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'.",
@@ -106,7 +106,7 @@ void wear_contact(Study &study)
    study.option(&load_state, "load-state", "State to go on from.", Text::input);
    study.options().leave_out_of_cases("load-state");
    study.parse();
-   settings.march.stepping = stepping(march_by);
+   stepping.set(settings.march);
    settings.update = update == "piece" ? GapUpdate::piece : GapUpdate::cycle;
 
    study.only_if(!file.empty(), {"history", "cycle-start"},
@@ -138,7 +138,13 @@ void wear_contact(Study &study)
    study.results["scene"] = file.empty() ? pad.profile : "reduced";
    if (settings.march.increments == 0)
    {
-      settings.march.increments = path_is_straight(scene.problem, scene.history) ? 1 : 20;
+      // On a straight path one increment between two points is exact, and takes no events.
+      const bool straight = path_is_straight(scene.problem, scene.history);
+      settings.march.increments = straight ? 1 : 20;
+      if (straight && !study.options().says("stepping"))
+      {
+         settings.march.stepping = Stepping::fixed;
+      }
    }
    const ReducedProblem &problem = scene.problem;
    study.save(problem);

@@ -49,7 +49,7 @@ const MarchSettings &exactly()
    static const MarchSettings settings = []
    {
       MarchSettings s;
-      s.stepping = Stepping::exact;
+      s.increments = 1; // states between the points are not asked for
       s.stop_at_steady_state = false;
       return s;
    }();

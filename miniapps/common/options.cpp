@@ -82,8 +82,9 @@ nlohmann::ordered_json with_paths(nlohmann::ordered_json structure, const fs::pa
    if (!structure.is_structured()) { return structure; }
    for (auto item = structure.begin(); item != structure.end(); ++item)
    {
-      const bool file = structure.is_object() && item->is_string() &&
-                        (item.key() == "mesh" || item.key() == "matrix");
+      const bool file =
+         structure.is_object() && item->is_string() &&
+         (item.key() == "mesh" || item.key() == "matrix" || item.key() == "deck");
       *item = file ? nlohmann::ordered_json((folder / item->get<std::string>()).string())
                    : with_paths(*item, folder);
    }
@@ -284,6 +285,11 @@ void Options::read_words()
          throw Leave();
       }
       const Option *option = find(word);
+      for (const auto &[before, name] : renamed_)
+      {
+         require(option || (word != "-" + before && word != "--" + before), "option ", word,
+                 " is called --", name, " now (-h shows its values)");
+      }
       require(option, "Unrecognized option: ", word, " (-h lists the options)");
       Given given{option, word, ""};
       if (option->is_flag())

@@ -94,6 +94,12 @@ public:
    /// Names what is no part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
+   /// An option that had another name, which an error says.
+   void renamed(const std::string &before, const std::string &name)
+   {
+      renamed_.emplace_back(before, name);
+   }
+
    /// Sets all options and echoes those with a value; -h prints them all and leaves the program
    /// (Leave). InputError for what is no option, and for a value or a file that cannot be used.
    void parse();
@@ -168,7 +174,8 @@ private:
    const std::vector<std::string> words_; ///< of the command line
    std::deque<Option> options_;           ///< these stay where they are
    std::vector<Given> given_;
-   std::set<std::string> said_, changed_; ///< long names
+   std::set<std::string> said_, changed_;                     ///< long names
+   std::vector<std::pair<std::string, std::string>> renamed_; ///< from and to, long names
    std::string case_file_, set_;
    int version_ = 0;
    nlohmann::ordered_json values_;

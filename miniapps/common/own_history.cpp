@@ -139,7 +139,7 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
                 at_least(1));
    study.option(&settings.increments, "increments",
                 "Load increments between two points of the history.", at_least(1));
-   study.option(&stepping_, "stepping", stepping_help, stepping_choices);
+   stepping_.declare_with_events(study);
    study.option(&frames_, "frames",
                 "Times to be written besides the last one, or all (every increment).");
    study.option(&save_state_, "save-state", "File for the last state.", Text::output);
@@ -159,7 +159,7 @@ void OwnHistory::check_options()
                         text_.find_first_not_of("; \t\n") != std::string::npos,
                      "option --history has no point, must have one at least, as 'P=1' (without "
                      "the option: all loads from 0 to 1)");
-   settings.stepping = stepping(stepping_);
+   stepping_.set(settings);
    if (frames_ != "all") { wanted_ = numbers("--frames", frames_); }
    std::sort(wanted_.begin(), wanted_.end());
 }
@@ -372,7 +372,7 @@ void OwnHistory::report_march(const ReducedProblem &problem)
    report_loss_error(study_, report);
    study_.results["advance_error_estimate"] = report.advance_error;
    study_.results["largest_residual"] = report.largest_residual;
-   if (settings.stepping == Stepping::exact) { report_exact_path(study_, problem, report); }
+   report_exact_path(study_, problem, settings, report);
 }
 
 void report_critical_friction(Study &study, const ReducedProblem &problem)

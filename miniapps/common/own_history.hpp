@@ -46,7 +46,8 @@ public:
 
 private:
    Study &study_;
-   std::string text_, stepping_ = "advancing", frames_, save_state_, load_state_;
+   SteppingOptions stepping_;
+   std::string text_, frames_, save_state_, load_state_;
    int cycle_start_ = -1, cycles_ = 1;
    std::vector<double> wanted_; ///< times of frames, in their order
    cattaneo::LoadHistory history_;

@@ -118,39 +118,52 @@ double Run::load(const std::string &pattern) const
    return state.multipliers[solver.problem().pattern(pattern)];
 }
 
-const char *const stepping_help =
-   "advancing (increments, halved while contact advances by more than a node), fixed "
-   "(increments) or exact (from one change of state to the next).";
-const std::vector<std::string> stepping_choices = {"advancing", "fixed", "exact"};
-
-Stepping stepping(const std::string &name)
+void SteppingOptions::declare(Study &study)
 {
-   return name == "exact"   ? Stepping::exact
-          : name == "fixed" ? Stepping::fixed
-                            : Stepping::advancing;
+   study.option(&stepping_, "stepping",
+                "exact (from one change of state to the next; with torsion increments, halved "
+                "while contact advances by more than a node) or fixed (equal increments).",
+                {"exact", "fixed"});
+}
+
+void SteppingOptions::declare_with_events(Study &study)
+{
+   declare(study);
+   study.option(&events_, "events",
+                "List all changes of state of the exact path, and write a row for each in "
+                "place of the stops.");
+   study.options().leave_out_of_cases("events");
+}
+
+void SteppingOptions::set(MarchSettings &settings) const
+{
+   settings.stepping = stepping_ == "fixed" ? Stepping::fixed : Stepping::exact;
+   settings.every_event = events_;
 }
 
 void report_exact_path(Study &study, const Run &run)
 {
-   if (run.settings.stepping != Stepping::exact) { return; }
-   report_exact_path(study, run.solver.problem(), run.report, run.started);
+   report_exact_path(study, run.solver.problem(), run.settings, run.report, run.started);
 }
 
-void report_exact_path(Study &study, const ReducedProblem &problem, const MarchReport &report,
-                       double started)
+void report_exact_path(Study &study, const ReducedProblem &problem,
+                       const MarchSettings &settings, const MarchReport &report, double started)
 {
-   study.say(text("exact path: %zu changes of state", report.changes.size()));
-   ordered_json &changes = study.results["state_changes"] = ordered_json::array();
-   for (const StateChange &change : report.changes)
-   {
-      changes.push_back({{"time", started + change.time},
-                         {"loads", named(problem, change.multipliers)},
-                         {"node", change.node},
-                         {"from", name(change.from)},
-                         {"to", name(change.to)}});
-   }
+   if (settings.stepping != Stepping::exact || problem.components() != 1) { return; }
+   study.say(text("exact path: %ld changes of state", report.events));
+   study.results["state_changes"] = report.events;
    study.results["fallbacks"] = report.fallbacks;
    study.results["fallback_reason"] = report.fallback_reason;
+   if (!settings.every_event) { return; }
+   ordered_json &events = study.results["events"] = ordered_json::array();
+   for (const StateChange &change : report.changes)
+   {
+      events.push_back({{"time", started + change.time},
+                        {"loads", named(problem, change.multipliers)},
+                        {"node", change.node},
+                        {"from", name(change.from)},
+                        {"to", name(change.to)}});
+   }
 }
 
 namespace

@@ -71,16 +71,28 @@ private:
    std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> left_;
 };
 
-extern const char *const stepping_help;
-extern const std::vector<std::string> stepping_choices;
-/// How a march steps, by the name that the option gives.
-cattaneo::Stepping stepping(const std::string &name);
+/// How a history is marched, the same in every program: --stepping, and --events where the
+/// events of a path are reported.
+class SteppingOptions
+{
+public:
+   void declare(Study &study);
+   void declare_with_events(Study &study);
+   /// After parsing.
+   void set(cattaneo::MarchSettings &settings) const;
 
-/// Of an exact march: its changes of state, printed (their number) and added to the results
-/// (the list), and whether it had to fall back. Nothing for other marches.
+private:
+   std::string stepping_ = "exact";
+   bool events_ = false;
+};
+
+/// Of an exact march: the number of its changes of state, printed, and with
+/// MarchSettings::every_event their list, in the results; and whether increments were taken
+/// instead. Nothing for other marches.
 void report_exact_path(Study &study, const Run &run);
 /// @param started time of the history at which the march began
 void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
+                       const cattaneo::MarchSettings &settings,
                        const cattaneo::MarchReport &report, double started = 0);
 
 /// What is printed of the loop of a load in a cycle, without what is round-off of the energies

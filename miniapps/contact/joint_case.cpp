@@ -1,9 +1,11 @@
 #include "contact/joint_case.hpp"
 
 #include <algorithm>
+#include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 
 namespace miniapp
 {
@@ -200,11 +202,12 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    JointCase::Body made;
    made.name = name;
    made.source = source(key);
-   key.must_be_of({"mesh", "matrix", "half-plane", "young", "poisson", "order", "geometry",
-                   "expansion", "support", "load", "guides"});
-   const int kinds = key.has("mesh") + key.has("matrix") + key.has("half-plane");
+   key.must_be_of({"mesh", "part", "matrix", "deck", "half-plane", "young", "poisson", "order",
+                   "geometry", "expansion", "support", "load", "guides"});
+   const bool is_matrix = key.has("matrix") || key.has("deck");
+   const int kinds = key.has("mesh") + is_matrix + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
-           " of the keys mesh, matrix and half-plane, must have one");
+           " of the keys mesh, matrix (or deck) and half-plane, must have one");
    const auto goes_without = [&](const char *what, const std::vector<std::string> &keys)
    {
       for (const std::string &other : keys)
@@ -215,7 +218,7 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    };
    if (key.has("half-plane"))
    {
-      goes_without("half-plane", {"young", "poisson", "order", "geometry", "expansion",
+      goes_without("half-plane", {"part", "young", "poisson", "order", "geometry", "expansion",
                                   "support", "load", "guides"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
@@ -226,16 +229,24 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
       if (plane.has("depth")) { made.depth = plane["depth"].number(positive); }
       return made;
    }
-   if (key.has("matrix"))
+   if (is_matrix)
    {
-      goes_without("matrix", {"young", "poisson", "expansion", "guides"});
-      made.matrix = key["matrix"].file();
+      goes_without(key.has("matrix") ? "matrix" : "deck",
+                   {"part", "young", "poisson", "expansion", "guides"});
+      if (key.has("deck")) { made.deck = key["deck"].file(); }
+      made.matrix = key.has("matrix") ? key["matrix"].file() : matrix_of_deck(made.deck);
    }
    else
    {
       made.mesh = key["mesh"].file();
-      made.young = key["young"].numbers(positive);
-      made.poisson = key["poisson"].numbers(any);
+      const std::string ending = std::filesystem::path(made.mesh).extension().string();
+      if (key.has("part")) { made.part = key["part"].text(); }
+      // A deck may have materials of its own.
+      if ((ending != ".inp" && ending != ".INP") || key.has("young") || key.has("poisson"))
+      {
+         made.young = key["young"].numbers(positive);
+         made.poisson = key["poisson"].numbers(any);
+      }
    }
    if (key.has("order"))
    {

@@ -31,9 +31,12 @@ struct JointCase
    {
       std::string name;
       Source source;
-      std::string mesh, matrix;                         ///< one of them, or a half-plane
-      std::vector<double> young = {1}, poisson = {0.3}; ///< one, or one for each attribute
-      double expansion = none;                          ///< for temperature loads
+      std::string mesh, matrix; ///< one of them, or a half-plane
+      std::string deck;         ///< that says where the nodes of the matrix are, if named
+      std::string part;         ///< of a mesh that is a deck: instance or set of elements
+      /// One, or one for each attribute; both empty: those of the deck.
+      std::vector<double> young, poisson;
+      double expansion = none; ///< for temperature loads
       std::string support, load;
       struct Guided
       {

@@ -1,5 +1,7 @@
 #include "contact/own_part.hpp"
 
+#include "contact/own_warnings.hpp"
+
 #include <algorithm>
 #include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
@@ -37,6 +39,36 @@ std::vector<Material> materials(const JointCase::Body &body, int attributes, boo
    return list;
 }
 
+/// Those of the sections of a deck, if the case names none.
+JointCase::Body with_materials(JointCase::Body body, const MeshNames &names)
+{
+   if (!body.young.empty()) { return body; }
+   require(
+      !names.materials.empty(),
+      "it has no *SOLID SECTION with a material: the keys young and poisson must be there");
+   for (std::size_t k = 0; k < names.materials.size(); ++k)
+   {
+      const MeshNames::DeckMaterial &material = names.materials[k];
+      require(material.young > 0, "the material '", material.name, "' of its section ", k + 1,
+              " has no *ELASTIC that is isotropic and the same at all temperatures: the keys "
+              "young and poisson must be there");
+      body.young.push_back(material.young);
+      body.poisson.push_back(material.poisson);
+   }
+   return body;
+}
+
+/// What a deck says of plane stress or strain, if the case says otherwise; else nothing.
+std::string other_plane_state(const MeshNames &names, bool plane_stress)
+{
+   const std::string other = plane_stress ? "CPE" : "CPS";
+   if (names.axisymmetric || names.plane_elements.count(other) == 0) { return ""; }
+   return "its elements are of plane " +
+          std::string(plane_stress ? "strain (CPE), the case computes plane stress"
+                                   : "stress (CPS), the case computes plane strain") +
+          " (key 'analysis')";
+}
+
 } // namespace
 
 OwnPart::OwnPart(OwnBodies &own, const JointCase &joint, int b)
@@ -67,14 +99,20 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
       [&]
       {
          std::vector<int> curves;
-         mfem::Mesh mesh = read_mesh(body_.mesh, &curves);
-         const MeshNames names = mesh_names(body_.mesh);
+         const MeshPart part{body_.part, body_.name};
+         mfem::Mesh mesh = read_mesh(body_.mesh, &curves, part);
+         const MeshNames names = mesh_names(body_.mesh, part);
          require(!names.axisymmetric || joint_.formulation == Formulation::axisymmetric,
                  "its elements are axisymmetric (CAX), key 'analysis' must be axisymmetric");
          if (!names.passed_over.empty())
          {
             warn("mesh '" + body_.mesh + "': its " + names.passed_over +
-                 " are passed over, supports and loads are those of the case");
+                 " are passed over, contacts, supports and loads are those of the case");
+         }
+         if (const std::string other = other_plane_state(names, joint_.plane_stress);
+             !other.empty())
+         {
+            warn(called() + ": " + other);
          }
          terms_ = {names.boundary, names.numbered, body_.expansion};
          for (const std::string &warning :
@@ -83,9 +121,14 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          {
             if (!warning.empty()) { warn(warning); }
          }
-         if (!body_.as_meshed) { sides_ = curve_sides(mesh, order(), of_sides(b), curves); }
+         // As meshed no node moves, and the curves that the file knows are those of estimates.
+         const std::string support = body_.source.called("support");
+         sides_ = curve_sides(mesh, body_.as_meshed ? 1 : order(), of_sides(b), curves,
+                              supported_attributes(support, body_.support, terms_));
+         if (!body_.as_meshed) { warn_of_thin_wall(sides_, body_.name, order()); }
          const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
-         own.materials.push_back(materials(body_, attributes, joint_.plane_stress));
+         own.materials.push_back(
+            materials(with_materials(body_, names), attributes, joint_.plane_stress));
          elastic_ =
             &own.scene.add(std::move(mesh), order(), own.materials.back(), joint_.formulation);
          add_supports(*elastic_, body_.source.called("support"), body_.support, terms_);
@@ -249,13 +292,18 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
 {
    std::map<std::string, std::vector<NodalStiffness>> files;
    std::map<std::string, int> asked;
+   std::map<std::string, std::string> decks; // of the files
    for (const JointCase::Body &body : joint.bodies)
    {
       if (body.matrix.empty()) { continue; }
       ++asked[body.matrix];
+      const std::string &deck = decks.emplace(body.matrix, body.deck).first->second;
+      require(deck == body.deck, body.source.called("deck"), " is '", body.deck,
+              "', another body of the matrix '", body.matrix, "' has '", deck,
+              "', must be the same");
       if (files.count(body.matrix) == 0)
       {
-         files[body.matrix] = read_stiffness(body.matrix).parts();
+         files[body.matrix] = read_stiffness(body.matrix, body.deck).parts();
       }
    }
    for (const auto &[file, bodies] : files)

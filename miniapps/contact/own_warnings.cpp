@@ -94,6 +94,27 @@ void warn_of_loose_bodies(const OwnBodies &own)
    }
 }
 
+void warn_of_thin_wall(const SmoothSides &sides, const std::string &body, int order)
+{
+   if (!sides.thinned) { return; }
+   const WallOfChords &at = *sides.thinned;
+   const double share = at.off / at.wall;
+   // In the mean along a chord the wall misses two thirds of what it misses at the middle. A
+   // membrane is as stiff as its wall is thick, bending goes with the third power: by twice the
+   // share at the middle, which is a twentieth here.
+   if (std::abs(share) < 0.025) { return; }
+   warn("body ", body, ": ", sides.free_chords,
+        " straight edges of its free sides are chords of smooth curves and stay straight, ",
+        order < 2 ? "as its elements are of order 1"
+                  : "as elements beside them would fold, or its mesh is periodic",
+        "; at (", at.place[0], ", ", at.place[1], ") its wall is ", at.wall,
+        ", that of the curves ", at.wall + at.off, ": the body is ",
+        share > 0 ? "softer" : "stiffer", " than it should be, its wall by about ",
+        2. / 3 * std::abs(share), " in tension and by ", 2 * std::abs(share),
+        " in bending (estimates); a mesh of more or of curved edges there (in Gmsh: -order 2) "
+        "has the wall as it is");
+}
+
 void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
                        const std::vector<SmoothSides> &sides)
 {
@@ -106,6 +127,7 @@ void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
       {
          // Round-off of coordinates is no curve.
          const bool smooth = b >= 0 && b < static_cast<int>(sides.size()) &&
+                             !joint.bodies[b].as_meshed &&
                              sides[b].most > 1e-5 * face.spacing.mean();
          if (!smooth || (!names.empty() && face.bodies[0] == face.bodies[1])) { continue; }
          names.push_back(joint.bodies[b].name);
@@ -124,6 +146,13 @@ void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
            (change > 0 ? told("which changes the gap by up to ", change)
                        : "which leaves the gap as it is") +
            straight + " (key geometry: as meshed takes the polygons)");
+   }
+   for (std::size_t b = 0; b < sides.size(); ++b)
+   {
+      if (sides[b].free_edges == 0) { continue; }
+      note(told("body ", joint.bodies[b].name, ": ", sides[b].free_edges,
+                " straight edges of its other sides are taken for chords of smooth curves as "
+                "well, and curved"));
    }
 }
 

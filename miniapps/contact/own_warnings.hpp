@@ -30,6 +30,9 @@ void warn_of_accuracy(double accuracy);
 /// bodies with elements in its last state.
 void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
                                  const cattaneo::ContactState &last);
+/// Warns of a free side that keeps the chords of a curve where that changes the wall beside it
+/// by more than a fortieth.
+void warn_of_thin_wall(const cattaneo::SmoothSides &sides, const std::string &body, int order);
 /// Notes which sides were taken as smooth curves, and what that made of gaps; `sides`: of each
 /// body with a mesh.
 void note_smooth_sides(const JointCase &joint, const cattaneo::Reduction &reduction,

@@ -130,7 +130,7 @@ for number, load, friction, text in (
     if number == "6.8a":
         figure("6.7", "Tractions, compression", joint(-0.04, 0.2), """
 The states of figure 6.3 with Tmax = -0.04 P0: the contact grows with the load and falls back.""", tractions, rows="a0|peak|^a/t")
-    figure(number, f"Zones in the cycles, T = {load:g} P0, f = {friction:g}", joint(load, friction) + " -spacing 0.0025 -march exact", text + (TIES if number == "6.6a" else ""), zones, rows="steady")
+    figure(number, f"Zones in the cycles, T = {load:g} P0, f = {friction:g}", joint(load, friction) + " -spacing 0.0025", text + (TIES if number == "6.6a" else ""), zones, rows="steady")
 for number, load, word in (("6.9a", 0.04, "tension"), ("6.9b", -0.04, "compression")):
     figure(number, f"Where energy is lost, {word}", [joint(load, friction) for friction in (0.2, 0.5, 0.8)], f"""
 Energy lost per unit of the contact in a steady cycle between 0 and {load:g} P0. It is zero at the edge, where the pressure is, and at the border of stick, where the slip is; friction

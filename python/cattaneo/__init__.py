@@ -7,7 +7,7 @@ small dense problem that is left Coulomb's law is satisfied to round-off:
     line = body.contact_line(nodes)
     problem = cattaneo.reduce(cattaneo.condense(body, line)).problem
     problem.friction = 0.3
-    report = cattaneo.march(problem, [{}, {"P": 1}, {"P": 1, "Q": 0.2}])
+    report = cattaneo.march(problem, [{}, {"P": 1}, {"Q": 0.2}])
 
 Names are those of the C++ library; docs/python.md is the guide.
 """
@@ -27,6 +27,7 @@ from ._core import (
     Counters as Counters,
     CriticalFriction as CriticalFriction,
     CycleRecord as CycleRecord,
+    FrictionSettings as FrictionSettings,
     HalfPlane as HalfPlane,
     HalfPlaneField as HalfPlaneField,
     HalfSpace as HalfSpace,
@@ -38,6 +39,7 @@ from ._core import (
     LoadPattern as LoadPattern,
     Loop as Loop,
     MarchReport as MarchReport,
+    MarchSettings as MarchSettings,
     Material as Material,
     NodalStiffness as NodalStiffness,
     NodeState as NodeState,

@@ -14,6 +14,7 @@ from ._core.design import (
     DesignCase as DesignCase,
     DesignProblem as DesignProblem,
     DesignReport as DesignReport,
+    DesignSettings as DesignSettings,
     EdgeIntensities as EdgeIntensities,
     Gradient as Gradient,
     LimitGradient as LimitGradient,

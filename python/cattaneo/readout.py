@@ -5,6 +5,7 @@ from ._core.readout import (
     ContactEdge as ContactEdge,
     EdgeFit as EdgeFit,
     EdgeTractions as EdgeTractions,
+    FitSettings as FitSettings,
     FittedIntensity as FittedIntensity,
     SurfacePart as SurfacePart,
     Zone as Zone,

@@ -1,7 +1,7 @@
 """Fretting wear: the gap takes in what Archard's law wears off, cycle by cycle, by jumps, or at once where it ends.
 
     law = wear.WearLaw.uniform(problem, 1e-4)
-    report = wear.wear(problem, law, history, 1e6, tolerance=1e-3)
+    report = wear.wear(problem, law, history, 1e6, settings=wear.WearSettings(tolerance=1e-3))
     end = wear.worn_out(problem, history)
 """
 
@@ -9,6 +9,7 @@ from ._core.wear import (
     WearLaw as WearLaw,
     WearRecord as WearRecord,
     WearReport as WearReport,
+    WearSettings as WearSettings,
     WearState as WearState,
     WornOut as WornOut,
     load_wear_state as load_wear_state,

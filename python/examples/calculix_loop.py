@@ -23,7 +23,7 @@ print(reduction)
 clamped = {"CLOAD1": 1}
 pulled = [clamped | {"T": t} for t in (0.3, -0.3, 0.3)]
 history = cattaneo.LoadHistory.through(problem, [{}, clamped, *pulled], cycle_start=2, cycles=3)
-report = cattaneo.march(problem, history, stepping="exact")
+report = cattaneo.march(problem, history)
 print(report)
 loop = report.cycles[-1].loops["T"]
 print(f"loss of a cycle {loop.work:.6g}, secant stiffness {loop.stiffness:.6g}, loss factor {loop.loss_factor:.4g}")

@@ -21,14 +21,14 @@ problem = cattaneo.load_reduced_problem(sys.argv[1] if len(sys.argv) > 1 else sh
 marches = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
 
 P, Q = {"P": 1.0}, 0.2
-history = cattaneo.LoadHistory.through(problem, [{}, P, P | {"Q": Q}, P | {"Q": -Q}, P | {"Q": Q}], cycle_start=2)
+history = cattaneo.LoadHistory.through(problem, [{}, P, {"Q": Q}, {"Q": -Q}, {"Q": Q}], cycle_start=2)
 
 
 def loss(friction):
     """Of a steady cycle."""
     own = problem.copy()
     own.friction = friction
-    report = cattaneo.march(own, history, stepping="exact")
+    report = cattaneo.march(own, history)
     return report.cycles[-1].dissipation if report.converged else np.nan
 
 

@@ -32,6 +32,29 @@ std::string article(const std::string &noun)
    return (std::string("aeiouAEIOU").find(noun[0]) == std::string::npos ? "a " : "an ") + noun;
 }
 
+std::string class_name(nb::handle type)
+{
+   const std::string name = written(nb::object(type.attr("__name__")));
+   return name.substr(name.rfind('.') + 1);
+}
+
+std::string described(nb::handle object)
+{
+   if (object.is_none()) { return "None"; }
+   if (nb::isinstance<nb::str>(object)) { return nb::repr(object).c_str(); }
+   if (PyLong_Check(object.ptr()) || PyFloat_Check(object.ptr())) { return written(object); }
+   if (nb::isinstance<nb::list>(object) || nb::isinstance<nb::tuple>(object))
+   {
+      return article(class_name(object.type())) + " of " + std::to_string(nb::len(object)) +
+             " entries";
+   }
+   if (class_name(object.type()) == "ndarray")
+   {
+      return "an array of shape " + shape_of(object);
+   }
+   return article(class_name(object.type()));
+}
+
 /// An array whose entries are of one of the kinds ("iuf", as NumPy names them).
 nb::object array_of(nb::handle object, const std::string &what, const std::string &kinds,
                     const std::string &needed)
@@ -138,104 +161,45 @@ Index integer(nb::handle object)
    return value;
 }
 
-std::string class_name(nb::handle type)
-{
-   const std::string name = written(nb::object(type.attr("__name__")));
-   return name.substr(name.rfind('.') + 1);
-}
-
-std::string described(nb::handle object)
-{
-   if (object.is_none()) { return "None"; }
-   if (nb::isinstance<nb::str>(object)) { return nb::repr(object).c_str(); }
-   if (nb::isinstance<nb::list>(object) || nb::isinstance<nb::tuple>(object))
-   {
-      return article(class_name(object.type())) + " of " + std::to_string(nb::len(object)) +
-             " entries";
-   }
-   if (class_name(object.type()) == "ndarray")
-   {
-      return "an array of shape " + shape_of(object);
-   }
-   return article(class_name(object.type()));
-}
-
 void refuse(nb::handle object, const std::string &what, const std::string &needed)
 {
    throw nb::type_error((what + " is " + described(object) + ", must be " + needed).c_str());
 }
 
-std::vector<nb::object> sequence(nb::handle object, const std::string &what)
+double finite(double value, const char *what)
 {
-   if (!nb::isinstance<nb::list>(object) && !nb::isinstance<nb::tuple>(object))
-   {
-      refuse(object, what, "a list");
-   }
-   std::vector<nb::object> all;
-   for (const nb::handle each : object) { all.push_back(nb::borrow(each)); }
-   return all;
+   require(std::isfinite(value), what, " is ", value, ", must be finite");
+   return value;
+}
+
+int within(int value, const char *what, int least, int most)
+{
+   require(value >= least && value <= most, what, " is ", value, ", must be from ", least,
+           " to ", most);
+   return value;
 }
 
 double number(nb::handle object, const std::string &what)
 {
    const Doubles one = doubles(object, what, "a number");
    if (!one.shape.empty()) { refuse(object, what, "a number"); }
-   require(std::isfinite(one.data[0]), what, " is ", one.data[0], ", must be finite");
-   return one.data[0];
-}
-
-long whole(nb::handle object, const std::string &what, long least, long most)
-{
-   const nb::object index = nb::steal(PyNumber_Index(object.ptr()));
-   if (!index.is_valid() || nb::isinstance<nb::bool_>(object))
-   {
-      PyErr_Clear();
-      refuse(object, what, "a whole number");
-   }
-   int overflow = 0;
-   const long value = PyLong_AsLongAndOverflow(index.ptr(), &overflow);
-   require(overflow == 0 && value >= least && value <= most, what, " is ", written(index),
-           ", must be from ", least, " to ", most);
-   return value;
-}
-
-bool flag(nb::handle object, const std::string &what)
-{
-   const auto name = class_name(object.type());
-   if (name != "bool" && name != "bool_") { refuse(object, what, "True or False"); }
-   return PyObject_IsTrue(object.ptr()) == 1;
-}
-
-std::string text(nb::handle object, const std::string &what)
-{
-   if (!nb::isinstance<nb::str>(object)) { refuse(object, what, "a str"); }
-   Py_ssize_t size = 0;
-   const char *begin = PyUnicode_AsUTF8AndSize(object.ptr(), &size);
-   if (begin == nullptr)
-   {
-      PyErr_Clear();
-      throw InputError(what + " is " + described(object) + ", must be text that UTF-8 has");
-   }
-   const std::string all(begin, static_cast<std::size_t>(size));
-   require(all.find('\0') == std::string::npos, what, " is ", described(object),
-           ", must be text without zero bytes");
-   return all;
+   return finite(one.data[0], what.c_str());
 }
 
 std::string file(nb::handle object, const std::string &what)
 {
    nb::object path = nb::borrow(object);
    if (nb::hasattr(object, "__fspath__")) { path = object.attr("__fspath__")(); }
-   const std::string name = text(path, what);
-   require(!name.empty() && name.find('\0') == std::string::npos, what, " is ", described(path),
-           ", must be the name of a file");
+   std::string name;
+   if (!nb::isinstance<nb::str>(path)) { refuse(path, what, "a str or a path"); }
+   require(nb::try_cast(path, name) && !name.empty() && name.find('\0') == std::string::npos,
+           what, " is ", described(path), ", must be the name of a file");
    return name;
 }
 
-std::size_t choice(nb::handle object, const std::string &what,
+std::size_t choice(const std::string &word, const std::string &what,
                    const std::vector<std::string> &words)
 {
-   const std::string word = text(object, what);
    std::string all;
    for (std::size_t k = 0; k < words.size(); ++k)
    {
@@ -314,6 +278,19 @@ std::vector<int> indices(nb::handle object, const std::string &what, long least,
    return {all.data(), all.data() + all.size()};
 }
 
+std::vector<std::pair<std::string, nb::object>> by_names(const NamedNumbers &arrays,
+                                                         const std::string &what)
+{
+   std::vector<std::pair<std::string, nb::object>> all;
+   for (const auto &[key, value] : nb::borrow<nb::dict>(arrays))
+   {
+      std::string name;
+      if (!nb::try_cast(key, name)) { refuse(key, "a name in " + what, "a str"); }
+      all.emplace_back(name, nb::borrow(value));
+   }
+   return all;
+}
+
 Eigen::MatrixXi whole_matrix(nb::handle object, const std::string &what, Index rows,
                              Index columns, long least, long most)
 {
@@ -341,21 +318,6 @@ Eigen::MatrixXi whole_matrix(nb::handle object, const std::string &what, Index r
       }
    }
    return all;
-}
-
-NamedLoads named_loads(nb::handle object, const std::string &what)
-{
-   if (!nb::isinstance<nb::dict>(object))
-   {
-      refuse(object, what, "a dict of numbers by names");
-   }
-   NamedLoads loads;
-   for (const auto &[key, value] : nb::borrow<nb::dict>(object))
-   {
-      const std::string name = text(key, "a name in " + what);
-      loads[name] = number(value, what + "['" + name + "']");
-   }
-   return loads;
 }
 
 } // namespace cattaneo::python

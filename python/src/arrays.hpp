@@ -8,9 +8,9 @@
 namespace cattaneo::python
 {
 
-CATTANEO_ARGUMENT(Reals, "numpy.typing.NDArray[numpy.float64]");
-CATTANEO_ARGUMENT(Integers, "numpy.typing.NDArray[numpy.intc]");
-CATTANEO_ARGUMENT(States, "numpy.typing.NDArray[numpy.int8]");
+CATTANEO_ARGUMENT(Reals, "numpy.typing.NDArray[numpy.float64]", anything);
+CATTANEO_ARGUMENT(Integers, "numpy.typing.NDArray[numpy.intc]", anything);
+CATTANEO_ARGUMENT(States, "numpy.typing.NDArray[numpy.int8]", anything);
 
 /// A view of the entries of a matrix or vector that `owner` keeps alive and in its place.
 /// @tparam Entry const double: Python may not write
@@ -56,12 +56,26 @@ inline Integers array_of_indices(const std::vector<Index> &values)
    return array_of_indices(std::vector<int>(values.begin(), values.end()));
 }
 
+/// What Python is given of a value: arrays of its own of matrices and vectors.
+template <class Value>
+auto given_out(const Value &value)
+{
+   if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) { return array(value); }
+   else { return value; }
+}
+/// A getter of a member of a member, which is copied:
+/// `.def_prop_ro("seconds", copied(&March::report, &MarchReport::seconds))`.
+template <class Class, class Part, class From, class Member>
+auto copied(Part Class::*part, Member From::*member)
+{
+   return [part, member](const Class &self) { return given_out(self.*part.*member); };
+}
+
 /// A getter of a member as a view, read-only: `.def_prop_ro("p", viewed(&ContactState::p))`.
 template <class Class, class Member>
 auto viewed(Member Class::*member)
 {
-   return [member](nb::handle_t<Class> self)
-   { return view(given<Class>(self, "self").*member, self); };
+   return [member](const Class &self) { return view(self.*member, nb::find(self)); };
 }
 
 } // namespace cattaneo::python

@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "module.hpp"
+#include "words.hpp"
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/exchange/nodal_statements.hpp>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <limits>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 #include <set>
 #include <sstream>
 
@@ -22,18 +24,11 @@ namespace
 {
 
 CATTANEO_ARGUMENT(Matrix,
-                  "scipy.sparse.sparray | scipy.sparse.spmatrix | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(Elements, "None | numpy.typing.ArrayLike | "
-                            "collections.abc.Sequence[numpy.typing.ArrayLike]");
-CATTANEO_ARGUMENT(Nodes, "str | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(Rows, "None | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(LoadVectors, "None | collections.abc.Mapping[str, numpy.typing.ArrayLike]");
-CATTANEO_ARGUMENT(NodeSets, "None | collections.abc.Mapping[str, numpy.typing.ArrayLike]");
-CATTANEO_ARGUMENT(MaybeFile, "None | str | os.PathLike[str]");
-CATTANEO_ARGUMENT(Lines, "collections.abc.Sequence[ContactLine]");
+                  "scipy.sparse.sparray | scipy.sparse.spmatrix | numpy.typing.ArrayLike",
+                  anything);
+CATTANEO_ARGUMENT(Nodes, "str | numpy.typing.ArrayLike", anything);
 
 constexpr int most_rows = std::numeric_limits<int>::max() - 1;
-const std::vector<std::string> formulations = {"plane", "axisymmetric", "torsion"};
 
 /// In SciPy's csr, a copy. It takes for granted that indices are within a matrix and would
 /// write anywhere else; a script may have changed them.
@@ -138,7 +133,7 @@ std::vector<int> node_numbers(const NodalStiffness &body)
 /// A set by its name, numbers of nodes, or a mask over NodalStiffness.nodes.
 NodalStiffness::Nodes nodes_in(const NodalStiffness &body, nb::handle nodes)
 {
-   if (nb::isinstance<nb::str>(nodes)) { return body.nodes_of(text(nodes, "nodes")); }
+   if (nb::isinstance<nb::str>(nodes)) { return body.nodes_of(nb::cast<std::string>(nodes)); }
    if (!is_mask(nodes)) { return indices(nodes, "nodes", 0, most_rows); }
    const std::vector<int> all = node_numbers(body);
    NodalStiffness::Nodes found;
@@ -150,17 +145,17 @@ NodalStiffness::Nodes nodes_in(const NodalStiffness &body, nb::handle nodes)
 }
 
 /// 1 and 2 for x and y, or r and z.
-std::vector<int> directions(const NodalStiffness &body, nb::handle direction)
+std::vector<int> directions(const NodalStiffness &body, const std::string &direction)
 {
    const bool plane = body.formulation == Formulation::plane;
-   const std::vector<std::string> words = plane ? std::vector<std::string>{"x", "y", "xy"}
-                                                : std::vector<std::string>{"r", "z", "rz"};
-   const std::size_t word = choice(direction, "direction", words);
+   const std::size_t word = choice(direction, "direction",
+                                   plane ? std::vector<std::string>{"x", "y", "xy"}
+                                         : std::vector<std::string>{"r", "z", "rz"});
    return word == 2 ? std::vector<int>{1, 2} : std::vector<int>{static_cast<int>(word) + 1};
 }
 
 void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle elements,
-          nb::handle fixed, nb::handle loads, nb::handle sets)
+          nb::handle fixed, const NamedNumbers &loads, const NamedNumbers &sets)
 {
    const int rows = static_cast<int>(body.K.rows());
    const Eigen::MatrixXd at = matrix(places, "places", -1, 2);
@@ -207,33 +202,20 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
       const std::set<int> sorted(held.begin(), held.end());
       body.fixed.assign(sorted.begin(), sorted.end());
    }
-   if (!loads.is_none())
+   for (const auto &[name, values] : by_names(loads, "loads"))
    {
-      if (!nb::isinstance<nb::dict>(loads))
-      {
-         refuse(loads, "loads", "a dict of arrays by names");
-      }
-      for (const auto &[key, values] : nb::borrow<nb::dict>(loads))
-      {
-         const std::string name = text(key, "a name in loads");
-         body.load_of(name, Control::force).values =
-            vector(values, "loads['" + name + "']", rows);
-      }
+      body.load_of(name, Control::force).values = vector(values, "loads['" + name + "']", rows);
    }
-   if (!sets.is_none())
+   for (const auto &[given, members] : by_names(sets, "sets"))
    {
-      if (!nb::isinstance<nb::dict>(sets)) { refuse(sets, "sets", "a dict of nodes by names"); }
-      for (const auto &[key, members] : nb::borrow<nb::dict>(sets))
+      std::string name = given;
+      const std::vector<int> found = indices(members, "sets['" + name + "']", 0, nodes - 1);
+      for (char &letter : name)
       {
-         std::string name = text(key, "a name in sets");
-         const std::vector<int> found = indices(members, "sets['" + name + "']", 0, nodes - 1);
-         for (char &letter : name)
-         {
-            letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-         }
-         require(body.sets.emplace(name, found).second, "sets has '", name,
-                 "' twice, whatever its capitals");
+         letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
       }
+      require(body.sets.emplace(name, found).second, "sets has '", name,
+              "' twice, whatever its capitals");
    }
    body.validate();
 }
@@ -253,7 +235,6 @@ nb::object sparse(const NodalStiffness::Matrix &K)
 
 nb::list line_chains(const ContactLine &line)
 {
-   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry", "open"};
    nb::list all;
    for (const LineChain &chain : line.chains)
    {
@@ -261,8 +242,7 @@ nb::list line_chains(const ContactLine &line)
       each["first"] = chain.first;
       each["nodes"] = chain.nodes;
       each["loop"] = chain.loop;
-      each["ends"] = nb::make_tuple(ends[static_cast<int>(chain.ends[0])],
-                                    ends[static_cast<int>(chain.ends[1])]);
+      each["ends"] = nb::make_tuple(word(chain.ends[0]), word(chain.ends[1]));
       all.append(each);
    }
    return all;
@@ -300,15 +280,16 @@ void bind_stiffness(nb::module_ &m)
       "`nodes`. A direction is 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'.")
       .def(
          "__init__",
-         [](Self *self, Matrix K, Numbers places, Rows dofs, Elements elements,
-            Text formulation, Rows fixed, LoadVectors loads, NodeSets sets,
-            Flag supports_left_out, Text name)
+         [](Self *self, Matrix K, Numbers places, Numbers dofs, Numbers elements,
+            const std::string &formulation, Numbers fixed, const NamedNumbers &loads,
+            const NamedNumbers &sets, bool supports_left_out, const std::string &name)
          {
             Self body;
-            body.name = text(name, "name");
-            body.formulation =
-               chosen<Formulation>(formulation, "formulation", {"plane", "axisymmetric"});
-            body.supports_left_out = flag(supports_left_out, "supports_left_out");
+            body.name = name;
+            body.formulation = chosen<Formulation>(formulation, "formulation");
+            require(body.formulation != Formulation::torsion, "formulation is '", formulation,
+                    "', must be one of 'plane', 'axisymmetric'");
+            body.supports_left_out = supports_left_out;
             body.K = stiffness(K);
             try
             {
@@ -327,7 +308,7 @@ void bind_stiffness(nb::module_ &m)
          },
          arg("K"), arg("places"), arg("dofs") = nb::none(), arg("elements") = nb::none(),
          nb::kw_only(), arg("formulation") = "plane", arg("fixed") = nb::none(),
-         arg("loads") = nb::none(), arg("sets") = nb::none(), arg("supports_left_out") = false,
+         arg("loads") = nb::dict(), arg("sets") = nb::dict(), arg("supports_left_out") = false,
          arg("name") = "body",
          "K: symmetric, of all rows, supported ones among them, not eliminated (n rows).\n"
          "places: (nodes, 2), x and y (r and z) of node 0, 1, ….\n"
@@ -341,12 +322,8 @@ void bind_stiffness(nb::module_ &m)
          "supports whose rows are gone). Rows that hold nothing but their diagonal, or "
          "nothing, "
          "are supports that were eliminated: they are fixed, which condense() warns of.")
-      .def_prop_rw(
-         "name", [](const Self &self) { return self.name; },
-         [](Self &self, Text name) { self.name = text(name, "name"); },
-         nb::for_setter(arg("name")))
-      .def_prop_ro("formulation", [](const Self &self)
-                   { return formulations[static_cast<int>(self.formulation)]; })
+      .def_rw("name", &Self::name)
+      .def_prop_ro("formulation", [](const Self &self) { return word(self.formulation); })
       .def_prop_ro(
          "K", [](const Self &self) { return sparse(self.K); },
          nb::sig("def K(self) -> scipy.sparse.csr_array"), "a copy")
@@ -385,7 +362,7 @@ void bind_stiffness(nb::module_ &m)
             nb::dict all;
             for (const auto &[set, nodes] : self.sets)
             {
-               all[set.c_str()] = array_of_indices(nodes);
+               all[nb::cast(set)] = array_of_indices(nodes);
             }
             return all;
          },
@@ -394,11 +371,8 @@ void bind_stiffness(nb::module_ &m)
       .def_prop_ro(
          "fixed", [](const Self &self) { return array_of_indices(self.fixed); },
          "rows that are held")
-      .def_prop_rw(
-         "supports_left_out", [](const Self &self) { return self.supports_left_out; },
-         [](Self &self, Flag left_out)
-         { self.supports_left_out = flag(left_out, "supports_left_out"); },
-         nb::for_setter(arg("supports_left_out")),
+      .def_rw(
+         "supports_left_out", &Self::supports_left_out,
          "K resists motions that nothing here holds: springs to the ground, supports whose "
          "rows are gone or hold nothing but their diagonal")
       .def_prop_ro(
@@ -408,7 +382,7 @@ void bind_stiffness(nb::module_ &m)
             nb::dict all;
             for (const BodyLoad &load : self.loads)
             {
-               all[load.name.c_str()] = array(load.values);
+               all[nb::cast(load.name)] = array(load.values);
             }
             return all;
          },
@@ -416,12 +390,12 @@ void bind_stiffness(nb::module_ &m)
          "values on all rows by the name of the load: forces, or prescribed displacements")
       .def(
          "nodes_of",
-         [](const Self &self, Text set)
-         { return array_of_indices(self.nodes_of(text(set, "set"))); },
+         [](const Self &self, const std::string &set)
+         { return array_of_indices(self.nodes_of(set)); },
          arg("set"))
       .def(
          "fix",
-         [](Self &self, Nodes nodes, Text direction)
+         [](Self &self, Nodes nodes, const std::string &direction)
          {
             const NodalStiffness::Nodes at = nodes_in(self, nodes);
             for (int d : directions(self, direction)) { self.fix(at, d); }
@@ -429,67 +403,54 @@ void bind_stiffness(nb::module_ &m)
          arg("nodes"), arg("direction"), "Holds nodes.")
       .def(
          "add_forces",
-         [](Self &self, Text load, Nodes nodes, Text direction, Number force)
+         [](Self &self, const std::string &load, Nodes nodes, const std::string &direction,
+            double force)
          {
             const NodalStiffness::Nodes at = nodes_in(self, nodes);
-            const double value = number(force, "force");
-            for (int d : directions(self, direction))
-            {
-               self.add_forces(text(load, "load"), at, d, value);
-            }
+            finite(force, "force");
+            for (int d : directions(self, direction)) { self.add_forces(load, at, d, force); }
          },
          arg("load"), arg("nodes"), arg("direction"), arg("force"),
          "Adds a force at each of the nodes to the load of that name.")
       .def(
          "add_displacement",
-         [](Self &self, Text load, Nodes nodes, Text direction, Number value)
+         [](Self &self, const std::string &load, Nodes nodes, const std::string &direction,
+            double value)
          {
             const NodalStiffness::Nodes at = nodes_in(self, nodes);
-            const double moved = number(value, "value");
+            finite(value, "value");
             for (int d : directions(self, direction))
             {
-               self.add_displacement(text(load, "load"), at, d, moved);
+               self.add_displacement(load, at, d, value);
             }
          },
          arg("load"), arg("nodes"), arg("direction"), arg("value"),
          "Moves nodes by a value per unit multiplier, and fixes them.")
       .def(
          "add_traction",
-         [](Self &self, Text load, Nodes nodes, Numbers traction, Whole order)
+         [](Self &self, const std::string &load, Nodes nodes, Numbers traction, int order)
          {
-            self.add_traction(text(load, "load"), nodes_in(self, nodes),
-                              vector(traction, "traction", 2),
-                              static_cast<int>(whole(order, "order", 0, 8)));
+            self.add_traction(load, nodes_in(self, nodes), vector(traction, "traction", 2),
+                              within(order, "order", 0, 8));
          },
          arg("load"), arg("nodes"), arg("traction"), arg("order") = 0,
          "A force (x, y) per length (area, about an axis) on the elements that contact_line() "
          "finds.")
       .def(
          "add_supports",
-         [](Self &self, Text supports)
-         { add_supports(self, "supports", text(supports, "supports")); },
+         [](Self &self, const std::string &supports)
+         { add_supports(self, "supports", supports); },
          arg("supports"), "Supports in words, as in case files: \"FLOOR:y WALL:xy\".")
       .def(
          "add_loads",
-         [](Self &self, Text loads) { add_loads(self, "loads", text(loads, "loads")); },
+         [](Self &self, const std::string &loads) { add_loads(self, "loads", loads); },
          arg("loads"), "Loads in words: \"P traction TOP 0 -1; D displacement-x END 0.01\".")
-      .def(
-         "parts",
-         [](const Self &self)
-         {
-            nb::list all;
-            for (NodalStiffness &part : self.parts()) { all.append(nb::cast(std::move(part))); }
-            return all;
-         },
-         nb::sig("def parts(self) -> list[NodalStiffness]"),
-         "The bodies that are connected to nothing, each called by a set that is all of it.")
+      .def("parts", &Self::parts,
+           "The bodies that are connected to nothing, each called by a set that is all of it.")
       .def(
          "contact_line",
-         [](const Self &self, Nodes nodes, Whole order)
-         {
-            return self.contact_line(nodes_in(self, nodes),
-                                     static_cast<int>(whole(order, "order", 0, 8)));
-         },
+         [](const Self &self, Nodes nodes, int order)
+         { return self.contact_line(nodes_in(self, nodes), within(order, "order", 0, 8)); },
          arg("nodes"), arg("order") = 0,
          "The trace of the body on nodes.\n\norder 0: on outer edges all of whose nodes are "
          "among the given ones, in whatever order. order 1 to 8, where no elements are known: "
@@ -498,7 +459,7 @@ void bind_stiffness(nb::module_ &m)
 
    m.def(
       "read_stiffness",
-      [](File matrix, MaybeFile places)
+      [](File matrix, File places)
       {
          const std::string name = file(matrix, "matrix");
          std::string at = places.is_none() ? std::string() : file(places, "places");
@@ -518,24 +479,20 @@ void bind_stiffness(nb::module_ &m)
       "a script (.mtx, .npy, .npz with .dofs; .npz of write_npz) wrote; `places`: the file "
       "that says where nodes are, if that is not beside it.");
    m.def(
-      "nodal_stiffness",
-      [](Of<CondensedBody> body) { return nodal_stiffness(given(body, "body")); }, arg("body"),
+      "nodal_stiffness", [](CondensedBody &body) { return nodal_stiffness(body); }, arg("body"),
       "What a condensed body is to another program.");
    m.def(
       "write_abaqus",
-      [](File name, Of<Self> stiffness)
-      { write_abaqus(file(name), given(stiffness, "stiffness")); },
+      [](File name, const Self &stiffness) { write_abaqus(file(name), stiffness); },
       arg("file"), arg("stiffness"), "An .mtx with *USER ELEMENT, and an .inp beside it.");
    m.def(
       "write_matrix_market",
-      [](File name, Of<Self> stiffness)
-      { write_matrix_market(file(name), given(stiffness, "stiffness")); },
+      [](File name, const Self &stiffness) { write_matrix_market(file(name), stiffness); },
       arg("file"), arg("stiffness"),
       "An .mtx, and the .dofs beside it that read_stiffness() asks for.");
    m.def(
       "write_nastran",
-      [](File name, Of<Self> stiffness)
-      { write_nastran(file(name), given(stiffness, "stiffness")); },
+      [](File name, const Self &stiffness) { write_nastran(file(name), stiffness); },
       arg("file"), arg("stiffness"),
       "A bulk data file with DMIG KAAX, GRID, SPC1 and FORCE, to 10 or 11 digits.");
 }
@@ -548,8 +505,7 @@ void bind_lines(nb::module_ &m)
       "The trace of a body on an interface: its contact nodes, in order with the body on the "
       "left, and the boundary elements between them.")
       .def("__len__", &Self::size)
-      .def_prop_ro("formulation", [](const Self &self)
-                   { return formulations[static_cast<int>(self.formulation)]; })
+      .def_prop_ro("formulation", [](const Self &self) { return word(self.formulation); })
       .def_prop_ro(
          "positions",
          [](const Self &self)
@@ -593,10 +549,8 @@ void bind_lines(nb::module_ &m)
             return array<Integers>(std::move(all));
          },
          "(n, 2), rows of the stiffness")
-      .def_prop_rw(
-         "as_meshed", [](const Self &self) { return self.as_meshed; },
-         [](Self &self, Flag as_meshed) { self.as_meshed = flag(as_meshed, "as_meshed"); },
-         nb::for_setter(arg("as_meshed")),
+      .def_rw(
+         "as_meshed", &Self::as_meshed,
          "gaps are those of the edges as they are; else straight edges whose ends lie as on a "
          "smooth curve are taken for chords of it")
       .def_prop_ro(
@@ -616,25 +570,16 @@ void bind_lines(nb::module_ &m)
            });
 
    m.def(
-      "joined",
-      [](Lines lines)
-      {
-         std::vector<ContactLine> all;
-         for (const nb::object &line : sequence(lines, "lines"))
-         {
-            all.push_back(given<Self>(line, "lines[" + std::to_string(all.size()) + "]"));
-         }
-         return joined(all);
-      },
-      arg("lines"), "The trace of a body with several interfaces, to be condensed to at once.");
+      "joined", [](const std::vector<Self> &lines) { return joined(lines); }, arg("lines"),
+      "The trace of a body with several interfaces, to be condensed to at once.");
    m.def(
       "straight_line",
-      [](Numbers grid, Whole order, Text formulation)
+      [](Numbers grid, int order, const std::string &formulation)
       {
          const Eigen::VectorXd ends = vector(grid, "grid");
          return straight_line({ends.data(), ends.data() + ends.size()},
-                              static_cast<int>(whole(order, "order", 1, 8)),
-                              chosen<Formulation>(formulation, "formulation", formulations));
+                              within(order, "order", 1, 8),
+                              chosen<Formulation>(formulation, "formulation"));
       },
       arg("grid"), arg("order") = 1, arg("formulation") = "plane",
       "The trace of a body above y = 0 without a mesh: elements that end at the places "
@@ -647,10 +592,7 @@ void bind_condensed(nb::module_ &m)
    nb::class_<Self>(m, "CondensedBody",
                     "A body reduced to its contact nodes: f = S u + sum of multiplier × load, "
                     "with u = {v; w} and f = {q; p} in the frames of its contact line.")
-      .def_prop_rw(
-         "name", [](const Self &self) { return self.name; },
-         [](Self &self, Text name) { self.name = text(name, "name"); },
-         nb::for_setter(arg("name")), "what sentences call it")
+      .def_rw("name", &Self::name, "what sentences call it")
       .def_prop_ro(
          "line", [](const Self &self) { return self.line; }, "a copy")
       .def_prop_ro("S", viewed(&Self::S), "(2 n, 2 n), symmetric")

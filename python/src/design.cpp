@@ -1,12 +1,12 @@
+#include "DesignSettings.hpp"
 #include "arrays.hpp"
 #include "marches.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include "sensitivity.hpp"
 #include "watch.hpp"
-#include <cattaneo/design/design.hpp>
 #include <limits>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
+#include <nanobind/stl/variant.h>
 #include <sstream>
 
 // Designs, and the derivatives that they are found by.
@@ -17,16 +17,10 @@ namespace cattaneo::python
 namespace
 {
 
-CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(MaybeNumber, "None | float");
-CATTANEO_ARGUMENT(Cases, "collections.abc.Sequence[DesignCase]");
-CATTANEO_ARGUMENT(Variables, "numpy.typing.ArrayLike | collections.abc.Sequence[Parameters]");
-CATTANEO_ARGUMENT(Shape, "None | collections.abc.Callable[[numpy.ndarray], "
-                         "tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]]");
-CATTANEO_ARGUMENT(Objective, "None | collections.abc.Callable[[Responses, list[int]], "
-                             "collections.abc.Sequence[Response]]");
-
-constexpr int most = std::numeric_limits<int>::max();
+using Variables = std::variant<std::vector<Parameters>, Numbers>;
+using Shape = std::optional<nb::typed<nb::callable, std::pair<Numbers, Numbers>(Reals)>>;
+using Objective =
+   std::optional<nb::typed<nb::callable, std::vector<Response>(Asked, std::vector<int>)>>;
 
 /// A problem to choose for. Python's functions are called where C++'s would be.
 struct Wanted
@@ -44,45 +38,39 @@ struct Found
 };
 
 /// Variables as Parameters, or as columns that are added to the gap.
-std::vector<Parameters> variables_of(nb::handle variables, Index nodes)
+std::vector<Parameters> variables_of(const Variables &variables, Index nodes)
 {
-   const bool listed =
-      nb::isinstance<nb::list>(variables) || nb::isinstance<nb::tuple>(variables);
-   if (!listed || nb::len(variables) == 0 || !nb::isinstance<Parameters>(variables[0]))
+   if (const auto *columns = std::get_if<Numbers>(&variables))
    {
-      return gap_variables(matrix(variables, "variables", nodes));
+      return gap_variables(matrix(*columns, "variables", nodes));
    }
-   std::vector<Parameters> all;
-   for (const nb::object &each : sequence(variables, "variables"))
-   {
-      all.push_back(given<Parameters>(each, "variables[" + std::to_string(all.size()) + "]"));
-   }
-   return all;
+   return std::get<std::vector<Parameters>>(variables);
 }
 
 /// Calls Python's shape for C++.
 Eigen::VectorXd shaped(nb::handle shape, const Eigen::VectorXd &x, Eigen::MatrixXd &by)
 {
    const nb::gil_scoped_acquire lock;
-   const std::vector<nb::object> answer = sequence(shape(array(x)), "what the shape returned");
-   require(answer.size() == 2, "what the shape returned has ", answer.size(),
-           " entries, must be two: gaps of the nodes, and their derivatives by each variable");
-   by = matrix(answer[1], "derivatives of the shape", by.rows(), by.cols());
-   return vector(answer[0], "gaps of the shape", by.rows());
+   const nb::object returned = shape(array(x));
+   std::pair<nb::object, nb::object> answer;
+   if (!nb::try_cast(returned, answer))
+   {
+      refuse(returned, "what the shape returned",
+             "two arrays, gaps of the nodes and their derivatives by each variable");
+   }
+   by = matrix(answer.second, "derivatives of the shape", by.rows(), by.cols());
+   return vector(answer.first, "gaps of the shape", by.rows());
 }
 
-Wanted wanted(const ReducedProblem &problem, nb::handle cases, nb::handle variables,
-              nb::handle low, nb::handle high, nb::handle limits, nb::handle least,
-              nb::handle upper, nb::handle goal, nb::handle objective, nb::handle shape)
+Wanted wanted(const ReducedProblem &problem, std::vector<DesignCase> cases,
+              const Variables &variables, nb::handle low, nb::handle high, nb::handle limits,
+              nb::handle least, nb::handle upper, const std::string &goal,
+              const Objective &objective, const Shape &shape)
 {
    Wanted result;
    DesignProblem &of = result.problem;
    of.problem = problem;
-   for (const nb::object &each : sequence(cases, "cases"))
-   {
-      of.cases.push_back(
-         given<DesignCase>(each, "cases[" + std::to_string(of.cases.size()) + "]"));
-   }
+   of.cases = std::move(cases);
    of.variables = variables_of(variables, problem.nodes());
    const auto count = static_cast<Index>(of.variables.size());
    of.low = vector_or_number(low, "low", count);
@@ -94,25 +82,17 @@ Wanted wanted(const ReducedProblem &problem, nb::handle cases, nb::handle variab
                               : bounds(least, "least", rows);
    of.most = upper.is_none() ? Eigen::VectorXd(Eigen::VectorXd::Constant(rows, infinity))
                              : bounds(upper, "most", rows);
-   of.goal = chosen<DesignGoal>(goal, "goal", {"least_largest", "least_sum"});
-   const auto function = [](nb::handle given, const char *name)
+   of.goal = chosen<DesignGoal>(goal, "goal");
+   if (shape)
    {
-      if (!given.is_none() && PyCallable_Check(given.ptr()) == 0)
-      {
-         refuse(given, name, "a function or None");
-      }
-      return nb::borrow(given);
-   };
-   result.objective = function(objective, "objective");
-   result.shape = function(shape, "shape");
-   if (!shape.is_none())
-   {
-      of.shape = [shape](const Eigen::VectorXd &x, Eigen::MatrixXd &by)
+      result.shape = *shape;
+      of.shape = [shape = nb::handle(*shape)](const Eigen::VectorXd &x, Eigen::MatrixXd &by)
       { return shaped(shape, x, by); };
    }
-   // It decides what must be known of the problem.
-   if (!objective.is_none())
+   if (objective)
    {
+      result.objective = *objective;
+      // It decides what must be known of the problem.
       of.objective = [](const Responses &, const std::vector<std::size_t> &)
       { return std::vector<Response>(); };
    }
@@ -126,7 +106,6 @@ std::vector<Response> ask(nb::handle objective, const Responses &of,
 {
    const nb::gil_scoped_acquire lock;
    nb::object asked = nb::cast(Asked(of));
-   std::vector<Response> all;
    nb::list of_states;
    for (std::size_t k : states) { of_states.append(k); }
    // What it is asked of ends with the call, whoever keeps it.
@@ -136,23 +115,22 @@ std::vector<Response> ask(nb::handle objective, const Responses &of,
       ~End() { nb::inst_ptr<Asked>(asked)->end(); }
    } const end{asked};
    const nb::object answer = objective(asked, of_states);
-   for (const nb::object &each : sequence(answer, "what the objective returned"))
+   std::vector<Response> all;
+   if (!nb::try_cast(answer, all))
    {
-      const std::string what = "response " + std::to_string(all.size()) + " of the objective";
-      all.push_back(given<Response>(each, what));
+      refuse(answer, "what the objective returned", "a list of Response");
    }
    return all;
 }
 
 Found found(const Wanted &wanted, const Eigen::VectorXd &start, DesignSettings settings,
-            nb::handle progress, nb::handle stop)
+            const ProgressLike &progress, const StopLike &stop)
 {
    DesignProblem copy = wanted.problem;
-   const nb::object objective = wanted.objective;
-   if (!objective.is_none())
+   if (wanted.objective.is_valid())
    {
-      copy.objective = [asked = nb::handle(objective)](const Responses &of,
-                                                       const std::vector<std::size_t> &states)
+      copy.objective = [asked = nb::handle(wanted.objective)](
+                          const Responses &of, const std::vector<std::size_t> &states)
       { return ask(asked, of, states); };
    }
    Watch watch(progress, stop);
@@ -164,7 +142,8 @@ Found found(const Wanted &wanted, const Eigen::VectorXd &start, DesignSettings s
    for (MarchTrace &trace : report.traces)
    {
       warn_of("design, case '" + copy.cases[result.traces.size()].name + "'", trace.report);
-      result.traces.append(nb::cast(Trace(result.problem, std::move(trace))));
+      result.traces.append(
+         nb::cast(Trace(nb::cast<const ReducedProblem &>(result.problem), std::move(trace))));
    }
    report.traces.clear();
    if (report.status != DesignStatus::optimal && report.status != DesignStatus::stopped)
@@ -180,13 +159,11 @@ void bind_problem(nb::module_ &m)
                           "Loads that a design has to do with: a march from before any load.")
       .def(
          "__init__",
-         [](DesignCase *self, Text name, Of<LoadHistory> history, Number weight,
-            MaybeNumber from)
+         [](DesignCase *self, const std::string &name, const LoadHistory &history,
+            double weight, std::optional<double> from)
          {
-            const double since = from.is_none() ? std::numeric_limits<double>::quiet_NaN()
-                                                : number(from, "from_");
-            new (self) DesignCase{text(name, "name"), given(history, "history"),
-                                  number(weight, "weight"), since};
+            new (self) DesignCase{name, history, finite(weight, "weight"),
+                                  from ? finite(*from, "from_") : std::nan("")};
          },
          arg("name"), arg("history"), arg("weight") = 1.0, arg("from_") = nb::none(),
          "name: in messages. weight: of what is asked of it; negative: as much of it as "
@@ -208,12 +185,13 @@ void bind_problem(nb::module_ &m)
       "limits.")
       .def(
          "__init__",
-         [](Self *self, Of<ReducedProblem> problem, Cases cases, Variables variables,
-            Numbers low, Numbers high, MaybeNumbers limits, MaybeNumbers least,
-            MaybeNumbers most, Text goal, Objective objective, Shape shape)
+         [](Self *self, const ReducedProblem &problem, std::vector<DesignCase> cases,
+            const Variables &variables, Numbers low, Numbers high, Numbers limits,
+            Numbers least, Numbers most, const std::string &goal, const Objective &objective,
+            const Shape &shape)
          {
-            new (self) Self(wanted(given(problem, "problem"), cases, variables, low, high,
-                                   limits, least, most, goal, objective, shape));
+            new (self) Self(wanted(problem, std::move(cases), variables, low, high, limits,
+                                   least, most, goal, objective, shape));
          },
          arg("problem"), arg("cases"), arg("variables"), arg("low"), arg("high"), nb::kw_only(),
          arg("limits") = nb::none(), arg("least") = nb::none(), arg("most") = nb::none(),
@@ -233,11 +211,11 @@ void bind_problem(nb::module_ &m)
       .def_prop_ro(
          "variables", [](const Self &self) { return self.problem.variables; },
          nb::sig("def variables(self) -> list[Parameters]"), "per unit of each")
-      .def_prop_ro("low", [](const Self &self) { return array(self.problem.low); })
-      .def_prop_ro("high", [](const Self &self) { return array(self.problem.high); })
-      .def_prop_ro("limits", [](const Self &self) { return array(self.problem.limits); })
-      .def_prop_ro("least", [](const Self &self) { return array(self.problem.least); })
-      .def_prop_ro("most", [](const Self &self) { return array(self.problem.most); })
+      .def_prop_ro("low", copied(&Self::problem, &DesignProblem::low))
+      .def_prop_ro("high", copied(&Self::problem, &DesignProblem::high))
+      .def_prop_ro("limits", copied(&Self::problem, &DesignProblem::limits))
+      .def_prop_ro("least", copied(&Self::problem, &DesignProblem::least))
+      .def_prop_ro("most", copied(&Self::problem, &DesignProblem::most))
       .def(
          "with_",
          [](const Self &self, Numbers x)
@@ -247,6 +225,7 @@ void bind_problem(nb::module_ &m)
            [](const Self &self)
            {
               std::ostringstream text;
+
               text << "<DesignProblem: " << self.problem.low.size() << " variables, "
                    << self.problem.limits.rows() << " limits, cases:";
               for (const DesignCase &each : self.problem.cases) { text << " " << each.name; }
@@ -259,13 +238,13 @@ void bind_problem(nb::module_ &m)
       "Variables that are the columns of G, (n, number of variables), added to the gap.");
    m.def(
       "spread_starts",
-      [](Of<Self> problem, Numbers start, Number count)
+      [](const Self &problem, Numbers start, int count)
       {
-         const DesignProblem &of = given(problem, "problem").problem;
+         const DesignProblem &of = problem.problem;
+         require_at_least("spread_starts: count", count, 0);
          nb::list all;
          for (const Eigen::VectorXd &x :
-              spread_starts(of, vector_or_number(start, "start", of.low.size()),
-                            whole(count, "count", 0, most)))
+              spread_starts(of, vector_or_number(start, "start", of.low.size()), count))
          {
             all.append(array(x));
          }
@@ -279,11 +258,8 @@ void bind_problem(nb::module_ &m)
       "meets.");
    m.def(
       "limit_curvature",
-      [](Of<Self> problem, Number least, Number most)
-      {
-         limit_curvature(given(problem, "problem").problem, number(least, "least"),
-                         number(most, "most"));
-      },
+      [](Self &problem, double least, double most)
+      { limit_curvature(problem.problem, finite(least, "least"), finite(most, "most")); },
       arg("problem"), arg("least"), arg("most"),
       "Adds limits of the curvature of the gap at each node that has two neighbours, positive "
       "where it opens to both sides.");
@@ -301,15 +277,12 @@ void bind_report(nb::module_ &m)
            [](const ActiveResponse &self)
            {
               std::ostringstream text;
+
               text << "<ActiveResponse " << self.index << " of case " << self.load_case << ": "
                    << self.value << ", multiplier " << self.multiplier << ">";
               return text.str();
            });
    using Self = Found;
-   const auto of_report = [](auto member)
-   { return [member](const Self &self) { return self.report.*member; }; };
-   const auto numbers = [](auto member)
-   { return [member](const Self &self) { return array(self.report.*member); }; };
    nb::class_<Self>(m, "DesignReport",
                     "The best design that was found, and how far it is an optimum.")
       .def_prop_ro(
@@ -318,31 +291,32 @@ void bind_report(nb::module_ &m)
          "'unavailable' or 'stopped'")
       .def_prop_ro("optimal",
                    [](const Self &self) { return self.report.status == DesignStatus::optimal; })
-      .def_prop_ro("message", of_report(&DesignReport::message))
-      .def_prop_ro("x", numbers(&DesignReport::x), "variables")
+      .def_prop_ro("message", copied(&Self::report, &DesignReport::message))
+      .def_prop_ro("x", copied(&Self::report, &DesignReport::x), "variables")
       .def_prop_ro(
          "problem", [](const Self &self) { return self.problem; },
          nb::sig("def problem(self) -> cattaneo._core.ReducedProblem"), "with them")
-      .def_prop_ro("objective", of_report(&DesignReport::objective))
-      .def_prop_ro("objective_at_start", of_report(&DesignReport::objective_at_start))
+      .def_prop_ro("objective", copied(&Self::report, &DesignReport::objective))
+      .def_prop_ro("objective_at_start",
+                   copied(&Self::report, &DesignReport::objective_at_start))
       .def_prop_ro(
          "traces", [](const Self &self) { return nb::list(self.traces); },
          nb::sig("def traces(self) -> list[MarchTrace]"), "of each case")
-      .def_prop_ro("stationarity", of_report(&DesignReport::stationarity))
-      .def_prop_ro("complementarity", of_report(&DesignReport::complementarity))
-      .def_prop_ro("violation", of_report(&DesignReport::violation))
-      .def_prop_ro("active", of_report(&DesignReport::active),
+      .def_prop_ro("stationarity", copied(&Self::report, &DesignReport::stationarity))
+      .def_prop_ro("complementarity", copied(&Self::report, &DesignReport::complementarity))
+      .def_prop_ro("violation", copied(&Self::report, &DesignReport::violation))
+      .def_prop_ro("active", copied(&Self::report, &DesignReport::active),
                    "'least_largest': the responses that matter")
-      .def_prop_ro("bound_multipliers", numbers(&DesignReport::bound_multipliers),
+      .def_prop_ro("bound_multipliers", copied(&Self::report, &DesignReport::bound_multipliers),
                    "of each variable; positive: of the upper bound")
-      .def_prop_ro("limit_multipliers", numbers(&DesignReport::limit_multipliers),
+      .def_prop_ro("limit_multipliers", copied(&Self::report, &DesignReport::limit_multipliers),
                    "of each limit; positive: of the upper one")
-      .def_prop_ro("ties", of_report(&DesignReport::ties),
+      .def_prop_ro("ties", copied(&Self::report, &DesignReport::ties),
                    "of all cases: derivatives there are one-sided")
-      .def_prop_ro("iterations", of_report(&DesignReport::iterations))
-      .def_prop_ro("marches", of_report(&DesignReport::marches))
-      .def_prop_ro("gradients", of_report(&DesignReport::gradients))
-      .def_prop_ro("seconds", of_report(&DesignReport::seconds))
+      .def_prop_ro("iterations", copied(&Self::report, &DesignReport::iterations))
+      .def_prop_ro("marches", copied(&Self::report, &DesignReport::marches))
+      .def_prop_ro("gradients", copied(&Self::report, &DesignReport::gradients))
+      .def_prop_ro("seconds", copied(&Self::report, &DesignReport::seconds))
       .def("__repr__",
            [](const Self &self)
            {
@@ -357,33 +331,19 @@ void bind_report(nb::module_ &m)
                    << report.violation << ">";
               return text.str();
            });
-   const DesignSettings settings;
-   const MarchSettings &march = settings.march;
    m.def(
       "design",
-      [](Of<Wanted> problem, Numbers start, Number tolerance, Whole max_iterations,
-         Whole increments, Text stepping, Flag single_increment_if_exact, Whole max_halvings,
-         Text method, ProgressLike progress, StopLike stop)
+      [](const Wanted &problem, Numbers start, DesignSettings settings,
+         const ProgressLike &progress, const StopLike &stop)
       {
-         DesignSettings with;
-         with.march = march_settings(increments, stepping, single_increment_if_exact,
-                                     max_halvings, method);
-         with.tolerance = number(tolerance, "tolerance");
-         with.max_iterations =
-            static_cast<int>(whole(max_iterations, "max_iterations", 1, most));
-         const Wanted &of = given(problem, "problem");
-         return found(of, vector_or_number(start, "start", of.problem.low.size()), with,
-                      progress, stop);
+         return found(problem, vector_or_number(start, "start", problem.problem.low.size()),
+                      std::move(settings), progress, stop);
       },
-      arg("problem"), arg("start"), nb::kw_only(), arg("tolerance") = settings.tolerance,
-      arg("max_iterations") = settings.max_iterations, arg("increments") = march.increments,
-      arg("stepping") = "advancing",
-      arg("single_increment_if_exact") = march.single_increment_if_exact,
-      arg("max_halvings") = march.max_halvings, arg("method") = "automatic",
+      arg("problem"), arg("start"), nb::kw_only(), arg("settings") = DesignSettings(),
       arg("progress") = false, arg("stop") = nb::none(),
       "Finds the variables that serve the goal, from a start within bounds and limits: an "
       "optimum in its neighbourhood, contact is not convex.\n\n"
-      "increments, stepping, …: of each march, as in march(). Ctrl-C, `stop` and `progress` "
+      "Ctrl-C, `stop` and `progress` "
       "are asked between iterations. A status other than 'optimal' is warned of "
       "(OutcomeWarning).");
 }
@@ -394,6 +354,7 @@ void bind_design(nb::module_ &m)
 {
    nb::module_ design =
       m.def_submodule("design", "Derivatives of what a march returns, and designs.");
+   bind_settings<DesignSettings>(design);
    bind_sensitivity(design);
    bind_readout_gradients(design);
    bind_problem(design);

@@ -1,17 +1,15 @@
+#include "FrettingSettings.hpp"
+#include "PlaneWeights.hpp"
 #include "arrays.hpp"
+#include "members.hpp"
 #include "module.hpp"
-#include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>
-#include <cattaneo/fretting/critical_plane.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <functional>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
 #include <sstream>
 
 // Near-edge fields, closed forms and criteria of fretting. Functions of numbers take arrays
@@ -25,7 +23,7 @@ namespace
 
 using namespace fretting;
 
-CATTANEO_ARGUMENT(Entries, "float | numpy.typing.NDArray[numpy.float64]");
+CATTANEO_ARGUMENT(Entries, "float | numpy.typing.NDArray[numpy.float64]", anything);
 
 using Names = std::vector<const char *>;
 
@@ -115,12 +113,11 @@ void define_of_edge(nb::module_ &m, const char *name, double (*f)(const Edge &, 
 {
    m.def(
       name,
-      [f, names](Of<Edge> edge, AnyNumbers<Each>... values)
+      [f, names](const Edge &edge, AnyNumbers<Each>... values)
       {
-         const Edge of = given(edge, "edge");
          return nb::borrow<Entries>(
             each_entry({values...}, Names(names.begin(), names.end()), 1,
-                       [f, of](const double *x, double *y) { *y = f(of, x[I]...); }));
+                       [f, edge](const double *x, double *y) { *y = f(edge, x[I]...); }));
       },
       arg("edge"), arg(names[I])..., doc);
 }
@@ -140,10 +137,10 @@ void bind_near_edge(nb::module_ &m)
       "stuck q = k_t/√t at the distance t from the edge.")
       .def(
          "__init__",
-         [](Edge *self, Number k_n, Number k_t, Number friction)
+         [](Edge *self, double k_n, double k_t, double friction)
          {
-            const Edge edge{number(k_n, "k_n"), number(k_t, "k_t"),
-                            number(friction, "friction")};
+            const Edge edge{finite(k_n, "k_n"), finite(k_t, "k_t"),
+                            finite(friction, "friction")};
             edge.validate();
             new (self) Edge(edge);
          },
@@ -158,22 +155,22 @@ void bind_near_edge(nb::module_ &m)
                      ", friction=" + exact_text(self.friction) + ")";
            });
    m.def(
-      "slip_zone", [](Of<Edge> edge) { return slip_zone(given(edge, "edge")); }, arg("edge"),
+      "slip_zone", [](const Edge &edge) { return slip_zone(edge); }, arg("edge"),
       "2 |K_T|/(f K_N)");
    m.def(
-      "edge_stress", [](Of<Edge> edge) { return edge_stress(given(edge, "edge")); },
-      arg("edge"), "σ_xx at the contact edge");
+      "edge_stress", [](const Edge &edge) { return edge_stress(edge); }, arg("edge"),
+      "σ_xx at the contact edge");
    define_of_edge(m, "pressure", &pressure, {"t"}, "at t; 0 outside the contact");
    define_of_edge(m, "shear_traction", &shear_traction, {"t"}, "at t under partial slip");
    m.def(
       "stress",
-      [](Of<Edge> edge, Numbers t, Numbers y)
+      [](const Edge &edge, Numbers t, Numbers y)
       {
-         const Edge of = given(edge, "edge");
          return nb::borrow<Reals>(each_entry({t, y}, {"t", "y"}, 3,
                                              [&](const double *x, double *s)
                                              {
-                                                const InPlaneStress at = stress(of, x[0], x[1]);
+                                                const InPlaneStress at =
+                                                   stress(edge, x[0], x[1]);
                                                 s[0] = at.xx;
                                                 s[1] = at.yy;
                                                 s[2] = at.xy;
@@ -208,10 +205,9 @@ void bind_calibration(nb::module_ &m)
    define(m, "edge_gradient", &edge_gradient, {"radius", "modulus"}, "E*/R");
    m.def(
       "contact_modulus",
-      [](Number young, Number poisson, Flag plane_stress)
-      {
-         return contact_modulus(number(young, "young"), number(poisson, "poisson"),
-                                flag(plane_stress, "plane_stress"));
+      [](double young, double poisson, bool plane_stress) {
+         return contact_modulus(finite(young, "young"), finite(poisson, "poisson"),
+                                plane_stress);
       },
       arg("young"), arg("poisson"), arg("plane_stress") = false, "E* of two similar bodies");
 
@@ -228,10 +224,10 @@ void bind_calibration(nb::module_ &m)
            });
    m.def(
       "hertz_contact",
-      [](Number load, Number radius, Number modulus)
+      [](double load, double radius, double modulus)
       {
-         return hertz_contact(number(load, "load"), number(radius, "radius"),
-                              number(modulus, "modulus"));
+         return hertz_contact(finite(load, "load"), finite(radius, "radius"),
+                              finite(modulus, "modulus"));
       },
       arg("load"), arg("radius"), arg("modulus"), "Load per thickness, relative radius, E*.");
    nb::class_<FlatRoundedContact>(m, "FlatRoundedContact")
@@ -247,32 +243,30 @@ void bind_calibration(nb::module_ &m)
          arg("x"), "at x from the centre");
    m.def(
       "flat_rounded_contact",
-      [](Number load, Number radius, Number flat, Number modulus)
+      [](double load, double radius, double flat, double modulus)
       {
-         return flat_rounded_contact(number(load, "load"), number(radius, "radius"),
-                                     number(flat, "flat"), number(modulus, "modulus"));
+         return flat_rounded_contact(finite(load, "load"), finite(radius, "radius"),
+                                     finite(flat, "flat"), finite(modulus, "modulus"));
       },
       arg("load"), arg("radius"), arg("flat"), arg("modulus"),
       "A pad with a flat of half-width `flat` and rounded edges.");
    m.def(
       "shear_intensities",
-      [](Number half_width, Number shear, Number bulk_difference)
+      [](double half_width, double shear, double bulk_difference)
       {
          const ShearIntensities k =
-            shear_intensities(number(half_width, "half_width"), number(shear, "shear"),
-                              number(bulk_difference, "bulk_difference"));
-         return nb::make_tuple(k.trailing, k.leading);
+            shear_intensities(finite(half_width, "half_width"), finite(shear, "shear"),
+                              finite(bulk_difference, "bulk_difference"));
+         return std::pair(k.trailing, k.leading);
       },
       arg("half_width"), arg("shear"), arg("bulk_difference") = 0.0,
-      nb::sig("def shear_intensities(half_width: float, shear: float, bulk_difference: float = "
-              "0.0) -> tuple[float, float]"),
       "K_T of the trailing and of the leading edge.");
    m.def(
       "hertz_stress",
-      [](Number friction, Number load_ratio, Numbers x, Numbers y)
+      [](double friction, double load_ratio, Numbers x, Numbers y)
       {
-         const double f = number(friction, "friction"),
-                      ratio = number(load_ratio, "load_ratio");
+         const double f = finite(friction, "friction"),
+                      ratio = finite(load_ratio, "load_ratio");
          return nb::borrow<Reals>(each_entry({x, y}, {"x", "y"}, 3,
                                              [&](const double *at, double *s)
                                              {
@@ -290,11 +284,8 @@ void bind_calibration(nb::module_ &m)
    define(m, "full_yield_load", &full_yield_load, {"friction"}, "… when all of it yields");
    m.def(
       "out_of_plane_constraint",
-      [](Number poisson, Flag plane_stress)
-      {
-         return out_of_plane_constraint(number(poisson, "poisson"),
-                                        flag(plane_stress, "plane_stress"));
-      },
+      [](double poisson, bool plane_stress)
+      { return out_of_plane_constraint(finite(poisson, "poisson"), plane_stress); },
       arg("poisson"), arg("plane_stress") = false);
 }
 
@@ -315,20 +306,19 @@ void bind_corner(nb::module_ &m)
          "None if there is no second one");
    m.def(
       "corner_modes",
-      [](Number pad_angle, Number body_angle)
+      [](double pad_angle, double body_angle)
       {
          return corner_modes(
-            Corner{number(pad_angle, "pad_angle"), number(body_angle, "body_angle")});
+            Corner{finite(pad_angle, "pad_angle"), finite(body_angle, "body_angle")});
       },
       arg("pad_angle"), arg("body_angle"),
       "Angles in radians that a pad and a body of the same material fill.");
    m.def(
       "rigid_corner_modes",
-      [](Number pad_angle, Number poisson, Flag plane_stress)
+      [](double pad_angle, double poisson, bool plane_stress)
       {
-         return corner_modes(RigidCorner{number(pad_angle, "pad_angle"),
-                                         number(poisson, "poisson"),
-                                         flag(plane_stress, "plane_stress")});
+         return corner_modes(RigidCorner{finite(pad_angle, "pad_angle"),
+                                         finite(poisson, "poisson"), plane_stress});
       },
       arg("pad_angle"), arg("poisson"), arg("plane_stress") = false,
       "Of an elastic pad on a rigid body.");
@@ -339,8 +329,8 @@ void bind_corner(nb::module_ &m)
       .def_ro("least_friction", &CornerFit::least_friction);
    m.def(
       "fit_corner",
-      [](Of<CornerModes> modes, Of<EdgeTractions> tractions)
-      { return fit_corner(given(modes, "modes"), given(tractions, "tractions")); },
+      [](const CornerModes &modes, const EdgeTractions &tractions)
+      { return fit_corner(modes, tractions); },
       arg("modes"), arg("tractions"));
 }
 
@@ -352,11 +342,8 @@ void bind_criteria(nb::module_ &m)
       .def_ro("young", &Self::young)
       .def_ro("poisson", &Self::poisson)
       .def_ro("threshold", &Self::threshold, "ΔK_th, MPa√mm")
-      .def_prop_ro(
-         "fatigue_limit",
-         [](const Self &self)
-         { return nb::make_tuple(self.fatigue_limit.low, self.fatigue_limit.high); },
-         nb::sig("def fatigue_limit(self) -> tuple[float, float]"))
+      .def_prop_ro("fatigue_limit", [](const Self &self)
+                   { return std::pair(self.fatigue_limit.low, self.fatigue_limit.high); })
       .def_prop_ro("critical_length", &critical_length, "a0, mm")
       .def("__repr__",
            [](const Self &self) { return "<FatigueMaterial '" + self.name + "'>"; });
@@ -364,35 +351,29 @@ void bind_criteria(nb::module_ &m)
       "read_materials", [](File name) { return read_materials(file(name)); }, arg("file"));
    m.def(
       "find_material",
-      [](File materials, Text name) {
-         return find_material(read_materials(file(materials, "materials")), text(name, "name"));
-      },
+      [](File materials, const std::string &name)
+      { return find_material(read_materials(file(materials, "materials")), name); },
       arg("materials"), arg("name"), "materials: a file of them.");
 
    m.def(
       "critical_plane",
-      [](Text criterion, Of<Self> material, Numbers cycle, Number findley, Number fatemi_socie)
+      [](const std::string &criterion, const Self &material, Numbers cycle,
+         const PlaneWeights &weights)
       {
-         const Eigen::MatrixXd stresses = matrix(cycle, "cycle", -1, 4);
-         const CriticalPlane plane = critical_plane(
-            chosen<PlaneCriterion>(criterion, "criterion",
-                                   {"findley", "smith_watson_topper", "fatemi_socie"}),
-            stresses, given(material, "material"),
-            {number(findley, "findley"), number(fatemi_socie, "fatemi_socie")});
-         return nb::make_tuple(plane.value, plane.angle);
+         const CriticalPlane plane =
+            critical_plane(chosen<PlaneCriterion>(criterion, "criterion"),
+                           matrix(cycle, "cycle", -1, 4), material, weights);
+         return std::pair(plane.value, plane.angle);
       },
-      arg("criterion"), arg("material"), arg("cycle"), nb::kw_only(), arg("findley") = 0.3,
-      arg("fatemi_socie") = 1.0,
-      nb::sig("def critical_plane(criterion: str, material: FatigueMaterial, cycle: "
-              "numpy.typing.ArrayLike, *, findley: float = 0.3, fatemi_socie: float = 1.0) -> "
-              "tuple[float, float]"),
+      arg("criterion"), arg("material"), arg("cycle"), nb::kw_only(),
+      arg("weights") = PlaneWeights(),
       "Largest value of 'findley', 'smith_watson_topper' or 'fatemi_socie' over the planes "
       "through a point, and the angle of that plane's normal from x. cycle: a row an instant, "
       "columns σ_xx, σ_yy, σ_zz, τ_xy in MPa.");
    m.def(
       "plain_fatigue_cycle",
-      [](Of<Self> material)
-      { return array(Eigen::MatrixXd(plain_fatigue_cycle(given(material, "material")))); },
+      [](const Self &material)
+      { return array(Eigen::MatrixXd(plain_fatigue_cycle(material))); },
       arg("material"), "What a plain specimen just endures, a cycle for critical_plane().");
 
    nb::class_<FrettingReport> report(m, "FrettingReport", "What the criteria say of an edge.");
@@ -417,64 +398,46 @@ void bind_criteria(nb::module_ &m)
       .def_ro("energy_max", &FrettingReport::energy_max)
       .def_ro("energy_total", &FrettingReport::energy_total)
       .def_prop_ro("trust", [](const FrettingReport &self) { return to_string(self.trust); })
-      .def_prop_ro(
-         "validity",
-         [](const FrettingReport &self)
-         {
-            nb::list all;
-            for (const Validity &each : self.validity)
-            {
-               all.append(nb::make_tuple(to_string(each.trust), each.text));
-            }
-            return all;
-         },
-         nb::sig("def validity(self) -> list[tuple[str, str]]"))
+      .def_prop_ro("validity", each_of(&FrettingReport::validity, [](const Validity &each)
+                                       { return std::pair(to_string(each.trust), each.text); }))
       .def("__repr__",
            [](const FrettingReport &self)
            {
               std::ostringstream text;
+
               text << "<FrettingReport: crack " << to_string(self.threshold.verdict)
                    << ", slip zone " << self.slip_zone << " mm, edge stress range "
                    << self.edge_stress_range << " MPa, trust " << to_string(self.trust) << ">";
               return text.str();
            });
-   const std::vector<std::string> criteria = {"open", "range", "half_range"};
    m.def(
       "assess",
-      [criteria](Of<Edge> edge, Of<Self> material, Number stress_ratio, nb::object bulk_stress,
-                 Number stress_gradient, Flag plane_stress, Number half_width,
-                 Number rounded_width, Text criterion)
+      [](const Edge &edge, const Self &material, double stress_ratio,
+         std::optional<double> bulk_stress, double stress_gradient, bool plane_stress,
+         double half_width, double rounded_width, const FrettingSettings &settings)
       {
          FrettingProblem problem;
-         problem.crack = {given(edge, "edge"), number(stress_ratio, "stress_ratio"),
-                          bulk_stress.is_none() ? 0.0 : number(bulk_stress, "bulk_stress"),
-                          number(stress_gradient, "stress_gradient")};
-         problem.material = given(material, "material");
-         problem.plane_stress = flag(plane_stress, "plane_stress");
-         problem.half_width = number(half_width, "half_width");
-         problem.rounded_width = number(rounded_width, "rounded_width");
-         problem.bulk_known = !bulk_stress.is_none();
-         FrettingSettings settings;
-         settings.criterion = chosen<Criterion>(criterion, "criterion", criteria);
+         problem.crack = {edge, finite(stress_ratio, "stress_ratio"),
+                          finite(bulk_stress.value_or(0), "bulk_stress"),
+                          finite(stress_gradient, "stress_gradient")};
+         problem.material = material;
+         problem.plane_stress = plane_stress;
+         problem.half_width = finite(half_width, "half_width");
+         problem.rounded_width = finite(rounded_width, "rounded_width");
+         problem.bulk_known = bulk_stress.has_value();
          return assess(problem, settings);
       },
       arg("edge"), arg("material"), nb::kw_only(), arg("stress_ratio") = -1.0,
       arg("bulk_stress") = nb::none(), arg("stress_gradient") = 0.0,
       arg("plane_stress") = false, arg("half_width") = 0.0, arg("rounded_width") = 0.0,
-      arg("criterion") = "open",
-      nb::sig(
-         "def assess(edge: Edge, material: FatigueMaterial, *, stress_ratio: float = -1.0, "
-         "bulk_stress: None | float = None, stress_gradient: float = 0.0, plane_stress: bool "
-         "= False, half_width: float = 0.0, rounded_width: float = 0.0, criterion: str = "
-         "'open') -> FrettingReport"),
-      "Judges a contact edge at peak load; N, mm, MPa.");
+      arg("settings") = FrettingSettings(), "Judges a contact edge at peak load; N, mm, MPa.");
    m.def(
       "threshold_ordinate",
-      [criteria](Text criterion, Number friction, Number abscissa, Number stress_ratio)
+      [](const std::string &criterion, double friction, double abscissa, double stress_ratio)
       {
-         return threshold_ordinate(chosen<Criterion>(criterion, "criterion", criteria),
-                                   number(friction, "friction"), number(abscissa, "abscissa"),
-                                   number(stress_ratio, "stress_ratio"));
+         return threshold_ordinate(chosen<Criterion>(criterion, "criterion"),
+                                   finite(friction, "friction"), finite(abscissa, "abscissa"),
+                                   finite(stress_ratio, "stress_ratio"));
       },
       arg("criterion"), arg("friction"), arg("abscissa"), arg("stress_ratio") = -1.0);
 }
@@ -484,6 +447,8 @@ void bind_criteria(nb::module_ &m)
 void bind_fretting(nb::module_ &m)
 {
    nb::module_ of = m.def_submodule("fretting", "Near-edge fields and criteria of fretting.");
+   bind_settings<FrettingSettings>(of);
+   bind_settings<PlaneWeights>(of);
    bind_near_edge(of);
    bind_calibration(of);
    bind_corner(of);

@@ -1,9 +1,11 @@
 #include "arrays.hpp"
 #include "module.hpp"
 #include "watch.hpp"
+#include "words.hpp"
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/halfplane/half_plane_field.hpp>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
 // Half-planes and half-spaces without a mesh, and condense() of all bodies.
@@ -14,56 +16,9 @@ namespace cattaneo::python
 namespace
 {
 
-CATTANEO_ARGUMENT(AnyBody, "NodalStiffness | HalfPlane");
-CATTANEO_ARGUMENT(LineOrGrid, "ContactLine | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(MaybeFlag, "bool | None");
-CATTANEO_ARGUMENT(FarForces, "None | collections.abc.Mapping[str, numpy.typing.ArrayLike]");
-
-const std::vector<std::string> formulations = {"plane", "axisymmetric", "torsion"};
-
-CondensedBody condensed(nb::handle body, nb::handle line, nb::handle order,
-                        nb::handle formulation)
+/// Warned of linear elements beside the axis, whose error no refinement takes away.
+CondensedBody warned(CondensedBody result)
 {
-   if (nb::isinstance<NodalStiffness>(body))
-   {
-      const auto &stiffness = given<NodalStiffness>(body, "body");
-      // Copies, so that no other thread changes them meanwhile.
-      const AssembledBody assembled = stiffness.body();
-      const ContactLine trace = given<ContactLine>(line, "line");
-      const nb::gil_scoped_release unlocked;
-      CondensedBody result = condense(assembled, trace);
-      result.name = stiffness.name;
-      return result;
-   }
-   if (!nb::isinstance<HalfPlane>(body))
-   {
-      refuse(body, "body", "of class NodalStiffness or HalfPlane");
-   }
-   const HalfPlane half_plane = given<HalfPlane>(body, "body");
-   if (nb::isinstance<ContactLine>(line))
-   {
-      const ContactLine trace = given<ContactLine>(line, "line");
-      const nb::gil_scoped_release unlocked;
-      return condense(half_plane, trace);
-   }
-   const Eigen::VectorXd ends = vector(line, "line");
-   const int degree = static_cast<int>(whole(order, "order", 1, 8));
-   const auto kind = chosen<Formulation>(formulation, "formulation", formulations);
-   const nb::gil_scoped_release unlocked;
-   return condense(half_plane, {ends.data(), ends.data() + ends.size()}, degree, kind);
-}
-
-/// Linear elements beside the axis have an error that no refinement takes away.
-CondensedBody warned(nb::handle body, nb::handle line, nb::handle order, nb::handle formulation)
-{
-   if (nb::isinstance<NodalStiffness>(body))
-   {
-      const AssembledBody assembled = given<NodalStiffness>(body, "body").body();
-      const std::string gone =
-         assembled.grounded ? assembled.eliminated_warning() : std::string();
-      if (!gone.empty()) { warn("condense: " + gone); }
-   }
-   CondensedBody result = condensed(body, line, order, formulation);
    for (const LineChain &chain : result.line.chains)
    {
       for (const LineElement &element : chain.elements)
@@ -89,11 +44,10 @@ void bind_half_planes(nb::module_ &m)
    nb::class_<Material>(m, "Material", "Isotropic linear elasticity in the plane.")
       .def(
          "__init__",
-         [](Material *self, Number young, Number poisson, Flag plane_stress)
+         [](Material *self, double young, double poisson, bool plane_stress)
          {
-            const Material material{number(young, "young"), number(poisson, "poisson"),
-                                    flag(plane_stress, "plane_stress") ? PlaneState::stress
-                                                                       : PlaneState::strain};
+            const Material material{finite(young, "young"), finite(poisson, "poisson"),
+                                    plane_stress ? PlaneState::stress : PlaneState::strain};
             material.validate();
             new (self) Material(material);
          },
@@ -116,33 +70,25 @@ void bind_half_planes(nb::module_ &m)
                          "surface: a body without a mesh.")
       .def(
          "__init__",
-         [](HalfPlane *self, Of<Material> material, Number depth, Numbers point, Numbers normal,
-            MaybeFlag symmetric, FarForces forces)
+         [](HalfPlane *self, const Material &material, double depth, Numbers point,
+            Numbers normal, std::optional<bool> symmetric, const NamedNumbers &forces)
          {
-            HalfPlane body{given(material, "material"),
-                           number(depth, "depth"),
+            HalfPlane body{material,
+                           finite(depth, "depth"),
                            vector(point, "point", 2),
                            vector(normal, "normal", 2),
                            {},
                            {}};
-            if (!symmetric.is_none()) { body.symmetric = flag(symmetric, "symmetric"); }
-            if (!forces.is_none())
+            if (symmetric) { body.symmetric = *symmetric; }
+            for (const auto &[name, force] : by_names(forces, "forces"))
             {
-               if (!nb::isinstance<nb::dict>(forces))
-               {
-                  refuse(forces, "forces", "a dict of forces (x, y) by names");
-               }
-               for (const auto &[key, force] : nb::borrow<nb::dict>(forces))
-               {
-                  const std::string name = text(key, "a name in forces");
-                  body.forces.push_back({name, vector(force, "forces['" + name + "']", 2)});
-               }
+               body.forces.push_back({name, vector(force, "forces['" + name + "']", 2)});
             }
             new (self) HalfPlane(std::move(body));
          },
          arg("material"), arg("depth") = 0.0, arg("point") = nb::make_tuple(0.0, 0.0),
          arg("normal") = nb::make_tuple(0.0, -1.0), arg("symmetric") = nb::none(),
-         arg("forces") = nb::none(),
+         arg("forces") = nb::dict(),
          "depth: of the plane, > 0: displacements are relative to the point at this depth "
          "below "
          "each force; what given forces do to a contact does not depend on it. At least twice "
@@ -164,14 +110,45 @@ void bind_half_planes(nb::module_ &m)
            });
 
    m.def(
-      "condense", &warned, arg("body"), arg("line"), arg("order") = 1,
-      arg("formulation") = "plane",
-      nb::sig("def condense(body: NodalStiffness | HalfPlane, line: ContactLine | "
-              "numpy.typing.ArrayLike, order: int = 1, formulation: str = 'plane') -> "
-              "CondensedBody"),
+      "condense",
+      [](const NodalStiffness &body, const ContactLine &line)
+      {
+         // Copies, so that no other thread changes them meanwhile.
+         const AssembledBody assembled = body.body();
+         const ContactLine trace = line;
+         const std::string gone =
+            assembled.grounded ? assembled.eliminated_warning() : std::string();
+         if (!gone.empty()) { warn("condense: " + gone); }
+         CondensedBody result = unlocked([&] { return condense(assembled, trace); });
+         result.name = body.name;
+         return warned(std::move(result));
+      },
+      arg("body"), arg("line"),
       "Condenses a body to the nodes of a contact line: one sparse factorisation, one solve a "
-      "load.\n\nOf a half-plane the line is that of the body that presses on it, or ends of "
+      "load. Of a half-plane the line is that of the body that presses on it, or ends of "
       "elements of the given order along its surface.");
+   m.def(
+      "condense",
+      [](const HalfPlane &body, const ContactLine &line)
+      {
+         return warned(unlocked([half_plane = body, trace = line]
+                                { return condense(half_plane, trace); }));
+      },
+      arg("body"), arg("line"));
+   m.def(
+      "condense",
+      [](const HalfPlane &body, Numbers line, int order, const std::string &formulation)
+      {
+         const Eigen::VectorXd ends = vector(line, "line");
+         const auto kind = chosen<Formulation>(formulation, "formulation");
+         within(order, "order", 1, 8);
+         return warned(unlocked(
+            [&, half_plane = body] {
+               return condense(half_plane, {ends.data(), ends.data() + ends.size()}, order,
+                               kind);
+            }));
+      },
+      arg("body"), arg("line"), arg("order") = 1, arg("formulation") = "plane");
 
    using Field = HalfPlaneField;
    nb::class_<Field>(
@@ -180,12 +157,8 @@ void bind_half_planes(nb::module_ &m)
       "contact nodes, by closed forms.")
       .def(
          "__init__",
-         [](Field *self, Of<HalfPlane> body, Of<ContactLine> line, Numbers forces)
-         {
-            const auto &trace = given(line, "line");
-            new (self)
-               Field(given(body, "body"), trace, vector(forces, "forces", 2 * trace.size()));
-         },
+         [](Field *self, const HalfPlane &body, const ContactLine &line, Numbers forces)
+         { new (self) Field(body, line, vector(forces, "forces", 2 * line.size())); },
          arg("body"), arg("line"), arg("forces"),
          "line: of the condensed half-plane. forces: {q; p} on its nodes in their frames.")
       .def(

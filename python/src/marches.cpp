@@ -1,12 +1,14 @@
 #include "marches.hpp"
 
+#include "FrictionSettings.hpp"
+#include "MarchSettings.hpp"
 #include "arrays.hpp"
 #include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
 #include <cattaneo/friction/history_statements.hpp>
-#include <limits>
-#include <nanobind/stl/string.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/variant.h>
 #include <sstream>
 
 // Marches along load histories.
@@ -17,10 +19,7 @@ namespace cattaneo::python
 namespace
 {
 
-CATTANEO_ARGUMENT(Points, "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
-CATTANEO_ARGUMENT(MaybeWhole, "None | int");
-CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(Observer, "None | collections.abc.Callable[[ContactState], object]");
+using Observer = std::optional<nb::typed<nb::callable, nb::object(ContactState)>>;
 
 /// A report with the state it ended in, and the problem it is of.
 struct March
@@ -47,85 +46,49 @@ struct March
       nb::dict all;
       for (std::size_t l = 0; l < loads.size(); ++l)
       {
-         all[loads[l].c_str()] =
+         all[nb::cast(loads[l])] =
             array(each([&](const IncrementRecord &record) { return (record.*values)[l]; }));
       }
       return all;
    }
 };
 
-March march_of(nb::handle problem)
+March march_of(const ReducedProblem &problem)
 {
-   March march{nb::borrow(problem), {}, {}, {}, {}};
-   for (const LoadPattern &each : given<ReducedProblem>(problem, "problem").patterns)
-   {
-      march.loads.push_back(each.name);
-   }
+   March march{nb::find(problem), {}, {}, {}, {}};
+   for (const LoadPattern &each : problem.patterns) { march.loads.push_back(each.name); }
    return march;
 }
 
-LoadHistory history_through(const ReducedProblem &problem, nb::handle points,
-                            nb::handle cycle_start, nb::handle cycles, nb::handle times)
+March march_from(const ReducedProblem &problem, const History &history,
+                 const ContactState *state, MarchSettings settings, bool keep_states,
+                 const Observer &observer, const ProgressLike &progress, const StopLike &stop)
 {
-   std::vector<NamedLoads> loads;
-   for (const nb::object &point : sequence(points, "points"))
-   {
-      loads.push_back(named_loads(point, "points[" + std::to_string(loads.size()) + "]"));
-   }
-   require(loads.size() >= 2, "points has ", loads.size(),
-           " entries, must have two at least: where the history starts and where it goes");
-   LoadHistory history = LoadHistory::through(problem, loads);
-   const auto count = static_cast<long>(loads.size());
-   if (!times.is_none()) { history.times = vector(times, "times", count); }
-   if (!cycle_start.is_none())
-   {
-      history.cycle_start = static_cast<int>(whole(cycle_start, "cycle_start", 0, count - 2));
-      history.cycles = static_cast<int>(
-         whole(cycles, "cycles", 1, std::numeric_limits<int>::max() / count - 1));
-   }
-   else
-   {
-      require(whole(cycles, "cycles", 1, std::numeric_limits<int>::max()) == 1,
-              "cycles needs cycle_start, the point at which the cycle starts");
-   }
-   history.validate(problem);
-   return history;
-}
-
-nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
-                      const MarchSettings &given_settings, nb::handle keep_states,
-                      nb::handle observer, nb::handle progress, nb::handle stop)
-{
-   const ReducedProblem &of = given<ReducedProblem>(problem, "problem");
-   MarchSettings settings = given_settings;
    March march = march_of(problem);
-   march.state = state_or_rest(of, state);
-   const LoadHistory loads = history_from(of, history, march.state);
-   const bool keep = flag(keep_states, "keep_states");
-   require_observer(observer);
+   march.state = state_or_rest(problem, state);
+   const LoadHistory loads = history_from(problem, history, march.state);
    Watch watch(progress, stop);
    settings.monitor = watch.monitor();
    const MarchObserver each = [&](const ContactState &at, const IncrementRecord &)
    {
-      if (keep) { march.states.push_back(at); }
-      if (observer.is_none()) { return; }
+      if (keep_states) { march.states.push_back(at); }
+      if (!observer) { return; }
       const nb::gil_scoped_acquire lock;
-      observer(nb::cast(ContactState(at)));
+      (*observer)(nb::cast(ContactState(at)));
       watch.ask(); // an observer that ends the march ends it here
    };
-   const MarchObserver watched = keep || !observer.is_none() ? each : MarchObserver();
-   const ReducedProblem copy = of; // that no other thread changes meanwhile
+   const MarchObserver watched = keep_states || observer ? each : MarchObserver();
+   const ReducedProblem copy = problem; // that no other thread changes meanwhile
    march.report =
       unlocked([&] { return cattaneo::march(copy, loads, march.state, settings, watched); });
-   nb::object result = nb::cast(std::move(march));
-   const MarchReport &report = nb::inst_ptr<March>(result)->report;
-   warn_of("march", report);
-   if (report.status == FrictionStatus::converged && report.counters.increments == 0)
+   warn_of("march", march.report);
+   if (march.report.status == FrictionStatus::converged &&
+       march.report.counters.increments == 0)
    {
-      warn("march: nothing was marched, the state stands at time " + exact_text(report.time) +
-           ", at the end of the history or beyond it");
+      warn("march: nothing was marched, the state stands at time " +
+           exact_text(march.report.time) + ", at the end of the history or beyond it");
    }
-   return result;
+   return march;
 }
 
 std::string brief(const March &self)
@@ -153,6 +116,10 @@ std::string brief(const March &self)
       text << "\n  the increments change the loss by up to " << loss.value << " ("
            << (loss.bound ? "bound" : "estimate") << ": " << loss.by << ")";
    }
+   else if (std::isnan(loss.value) && !loss.by.empty())
+   {
+      text << "\n  how far the increments change the loss is not known: " << loss.by;
+   }
    if (report.not_unique)
    {
       text << "\n  not unique from time " << report.not_unique->time << ": "
@@ -177,6 +144,7 @@ void bind_cycles(nb::module_ &m)
            [](const Loop &self)
            {
               std::ostringstream text;
+
               text << "<Loop: work " << self.work() << ", secant stiffness " << self.stiffness()
                    << ", loss factor " << self.loss_factor() << ">";
               return text.str();
@@ -191,6 +159,7 @@ void bind_cycles(nb::module_ &m)
            [](const StateChange &self)
            {
               std::ostringstream text;
+
               text << "<StateChange at time " << self.time << ": node " << self.node << " from "
                    << name(self.from) << " to " << name(self.to) << ">";
               return text.str();
@@ -206,49 +175,31 @@ struct Cycle
 
 } // namespace
 
-LoadHistory history_from(const ReducedProblem &problem, nb::handle history,
+LoadHistory history_from(const ReducedProblem &problem, const History &history,
                          const ContactState &state)
 {
-   const bool listed = nb::isinstance<nb::list>(history) || nb::isinstance<nb::tuple>(history);
-   if (!listed && !nb::isinstance<LoadHistory>(history))
+   if (std::holds_alternative<LoadHistory>(history)) { return std::get<LoadHistory>(history); }
+   auto points = std::get<std::vector<NamedLoads>>(history);
+   if (points.empty()) { points.emplace_back(); } // one point too few, which through() says
+   // Loads that the first point does not name are those of the state.
+   NamedLoads first = named(problem, state.multipliers);
+   for (const auto &[name, value] : points[0]) { first[name] = value; }
+   points[0] = first;
+   LoadHistory loads = LoadHistory::through(problem, points);
+   loads.times.array() += state.time;
+   for (Index l = 0; l < state.multipliers.size(); ++l)
    {
-      refuse(history, "history", "a LoadHistory or a list of loads by names");
-   }
-   LoadHistory loads =
-      listed ? history_through(problem, history, nb::none(), nb::cast(1), nb::none())
-             : given<LoadHistory>(history, "history");
-   loads.validate(problem);
-   if (listed) { loads.times.array() += state.time; }
-   for (Index l = 0; listed && l < state.multipliers.size(); ++l)
-   {
-      const double first = loads.multipliers(l, 0), stands = state.multipliers[l];
-      require(std::abs(first - stands) <= 1e-12 * std::abs(stands), "history: load '",
-              problem.patterns[l].name, "' is ", first, " at its first point, and ", stands,
+      const double begin = loads.multipliers(l, 0), stands = state.multipliers[l];
+      require(std::abs(begin - stands) <= 1e-12 * std::abs(stands), "history: load '",
+              problem.patterns[l].name, "' is ", begin, " at its first point, and ", stands,
               state.multipliers.isZero(0)
                  ? " before any load; begin with {}"
-                 : " in the state that it goes on from; begin with what that has "
-                   "(MarchReport.loads)");
+                 : " in the state that it goes on from; begin with {}, which keeps its loads");
    }
    return loads;
 }
 
-MarchSettings march_settings(nb::handle increments, nb::handle stepping,
-                             nb::handle single_increment_if_exact, nb::handle max_halvings,
-                             nb::handle method)
-{
-   MarchSettings settings;
-   settings.increments =
-      static_cast<int>(whole(increments, "increments", 1, std::numeric_limits<int>::max()));
-   settings.stepping = chosen<Stepping>(stepping, "stepping", {"fixed", "advancing", "exact"});
-   settings.single_increment_if_exact =
-      flag(single_increment_if_exact, "single_increment_if_exact");
-   settings.max_halvings = static_cast<int>(whole(max_halvings, "max_halvings", 0, 1000));
-   settings.friction.method =
-      chosen<FrictionMethod>(method, "method", {"automatic", "gauss_seidel"});
-   return settings;
-}
-
-nb::object march_report(nb::handle problem, MarchReport report, ContactState state)
+nb::object march_report(const ReducedProblem &problem, MarchReport report, ContactState state)
 {
    March march = march_of(problem);
    march.report = std::move(report);
@@ -269,43 +220,51 @@ void warn_of(const std::string &what, const MarchReport &report)
    for (const CutOffContact &end : report.cut_off) { warn(what + ": " + end.message()); }
 }
 
-ContactState state_or_rest(const ReducedProblem &problem, nb::handle state)
+ContactState state_or_rest(const ReducedProblem &problem, const ContactState *state)
 {
-   ContactState result =
-      state.is_none() ? ContactState::virgin(problem) : given<ContactState>(state, "state");
+   ContactState result = state ? *state : ContactState::virgin(problem);
    result.validate(problem);
    return result;
 }
 
 void bind_marches(nb::module_ &m)
 {
+   bind_settings<FrictionSettings>(m);
+   bind_settings<MarchSettings>(m);
    nb::class_<LoadHistory>(
       m, "LoadHistory",
       "A piecewise-linear history of load multipliers: an opening part, then "
       "a cycle that repeats.")
       .def_static(
          "through",
-         [](Of<ReducedProblem> problem, Points points, MaybeWhole cycle_start, Whole cycles,
-            MaybeNumbers times) {
-            return history_through(given(problem, "problem"), points, cycle_start, cycles,
-                                   times);
+         [](const ReducedProblem &problem, const std::vector<NamedLoads> &points,
+            std::optional<int> cycle_start, int cycles, Numbers times)
+         {
+            require(cycle_start || cycles == 1,
+                    "cycles needs cycle_start, the point at which the cycle starts");
+            require(cycle_start.value_or(0) >= 0, "cycle_start is ", cycle_start.value_or(0),
+                    ", must be the number of a point");
+            LoadHistory history =
+               LoadHistory::through(problem, points, cycle_start.value_or(-1), cycles);
+            if (!times.is_none())
+            {
+               history.times = vector(times, "times", history.times.size());
+               history.validate(problem);
+            }
+            return history;
          },
          arg("problem"), arg("points"), arg("cycle_start") = nb::none(), arg("cycles") = 1,
          arg("times") = nb::none(),
-         "Through loads by names, zero for those that are not named: through(problem, [{}, "
-         "{'P': 1}, {'P': 1, 'Q': 0.2}]).\n\ncycle_start: the point from which on the rest "
-         "repeats, `cycles` times; its loads are those of the last point. times: increasing, "
-         "0, "
-         "1, 2, … unless given; only a parameter.")
+         "Through loads by names: through(problem, [{}, {'P': 1}, {'Q': 0.2}]). A load that a "
+         "point does not name keeps its value, from 0 at the first point.\n\ncycle_start: the "
+         "point from which on the rest repeats, `cycles` times; its loads are those of the "
+         "last "
+         "point. times: increasing, 0, 1, 2, … unless given; only a parameter.")
       .def_static(
          "read",
-         [](Of<ReducedProblem> problem, Text history) {
-            return load_history("history", text(history, "history"), given(problem, "problem"));
-         },
-         arg("problem"), arg("text"),
-         "As programs write it, \"P=0; P=1; Q=0.1; Q=-0.1\": a load that is not named keeps "
-         "its "
-         "value.")
+         [](const ReducedProblem &problem, const std::string &history)
+         { return load_history("history", history, problem); },
+         arg("problem"), arg("text"), "As programs write it, \"P=0; P=1; Q=0.1; Q=-0.1\".")
       .def_prop_ro("times", viewed(&LoadHistory::times))
       .def_prop_ro("multipliers", viewed(&LoadHistory::multipliers), "(loads, points)")
       .def_ro("cycle_start", &LoadHistory::cycle_start, "-1: no cycle")
@@ -314,6 +273,7 @@ void bind_marches(nb::module_ &m)
            [](const LoadHistory &self)
            {
               std::ostringstream text;
+
               text << "<LoadHistory: " << self.times.size() << " points from time "
                    << self.times[0] << " to " << self.times[self.times.size() - 1];
               if (self.cycle_start >= 0)
@@ -326,11 +286,9 @@ void bind_marches(nb::module_ &m)
    bind_cycles(m);
 
    nb::class_<Cycle>(m, "CycleRecord", "One marched cycle.")
-      .def_prop_ro(
-         "cycle", [](const Cycle &self) { return self.record.cycle; }, "from 1")
-      .def_prop_ro(
-         "whole", [](const Cycle &self) { return self.record.whole; },
-         "False if the march was taken up within it")
+      .def_prop_ro("cycle", copied(&Cycle::record, &CycleRecord::cycle), "from 1")
+      .def_prop_ro("whole", copied(&Cycle::record, &CycleRecord::whole),
+                   "False if the march was taken up within it")
       .def_prop_ro(
          "loops",
          [](const Cycle &self)
@@ -338,22 +296,21 @@ void bind_marches(nb::module_ &m)
             nb::dict all;
             for (std::size_t l = 0; l < self.loads.size(); ++l)
             {
-               all[self.loads[l].c_str()] = nb::cast(Loop(self.record.loops[l]));
+               all[nb::cast(self.loads[l])] = nb::cast(Loop(self.record.loops[l]));
             }
             return all;
          },
          nb::sig("def loops(self) -> dict[str, Loop]"), "of each load")
-      .def_prop_ro("dissipation", [](const Cycle &self) { return self.record.dissipation; })
-      .def_prop_ro("external_work", [](const Cycle &self) { return self.record.external_work; })
-      .def_prop_ro(
-         "slip_change", [](const Cycle &self) { return self.record.slip_change; },
-         "largest difference from the slip one cycle before")
-      .def_prop_ro("node_dissipation",
-                   [](const Cycle &self) { return array(self.record.node_dissipation); })
+      .def_prop_ro("dissipation", copied(&Cycle::record, &CycleRecord::dissipation))
+      .def_prop_ro("external_work", copied(&Cycle::record, &CycleRecord::external_work))
+      .def_prop_ro("slip_change", copied(&Cycle::record, &CycleRecord::slip_change),
+                   "largest difference from the slip one cycle before")
+      .def_prop_ro("node_dissipation", copied(&Cycle::record, &CycleRecord::node_dissipation))
       .def("__repr__",
            [](const Cycle &self)
            {
               std::ostringstream text;
+
               text << "<CycleRecord " << self.record.cycle << ": dissipation "
                    << self.record.dissipation << ", slip change " << self.record.slip_change
                    << ">";
@@ -381,21 +338,17 @@ void bind_marches(nb::module_ &m)
             nb::dict all;
             for (std::size_t l = 0; l < self.loads.size(); ++l)
             {
-               all[self.loads[l].c_str()] = self.state.multipliers[static_cast<Index>(l)];
+               all[nb::cast(self.loads[l])] = self.state.multipliers[static_cast<Index>(l)];
             }
             return all;
          },
          nb::sig("def loads(self) -> dict[str, float]"), "multipliers at the end, by name")
       .def_prop_ro(
          "states",
-         [](nb::handle_t<Self> self)
+         [](Self &self)
          {
-            nb::list all;
-            for (ContactState &state : given<Self>(self, "self").states)
-            {
-               all.append(nb::cast(state, nb::rv_policy::reference_internal, self));
-            }
-            return all;
+            return references(
+               self, self.states, [](ContactState & at) -> auto & { return at; });
          },
          nb::sig("def states(self) -> list[ContactState]"),
          "of each increment, if keep_states was True")
@@ -420,40 +373,26 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro("dissipation", number_of(&IncrementRecord::dissipation),
                    "lost by friction in each increment")
       .def_prop_ro("external_work", number_of(&IncrementRecord::external_work))
-      .def_prop_ro(
-         "cycles",
-         [](const Self &self)
-         {
-            nb::list all;
-            for (const CycleRecord &each : self.report.cycles)
-            {
-               all.append(nb::cast(Cycle{each, self.loads}));
-            }
-            return all;
-         },
-         nb::sig("def cycles(self) -> list[CycleRecord]"))
-      .def_prop_ro(
-         "changes",
-         [](const Self &self)
-         {
-            nb::list all;
-            for (const StateChange &each : self.report.changes)
-            {
-               all.append(nb::cast(StateChange(each)));
-            }
-            return all;
-         },
-         nb::sig("def changes(self) -> list[StateChange]"),
-         "stepping='exact': every change of state in the order of the path")
-      .def_prop_ro(
-         "event_time", [](const Self &self) { return self.report.event_time; },
-         "where the outcome is not 'converged': when it came about")
-      .def_prop_ro("event_multipliers",
-                   [](const Self &self) { return array(self.report.event_multipliers); })
-      .def_prop_ro(
-         "steady_cycle", [](const Self &self) { return self.report.steady_cycle; },
-         "0: not reached")
-      .def_prop_ro("steady_period", [](const Self &self) { return self.report.steady_period; })
+      .def_prop_ro("cycles",
+                   [](const Self &self)
+                   {
+                      std::vector<Cycle> all;
+                      for (const CycleRecord &each : self.report.cycles)
+                      {
+                         all.push_back({each, self.loads});
+                      }
+                      return all;
+                   })
+      .def_prop_ro("changes", copied(&Self::report, &MarchReport::changes),
+                   "with every_event: the changes of state in the order of the path")
+      .def_prop_ro("events", copied(&Self::report, &MarchReport::events),
+                   "number of changes of state on an exact path")
+      .def_prop_ro("event_time", copied(&Self::report, &MarchReport::event_time),
+                   "where the outcome is not 'converged': when it came about")
+      .def_prop_ro("event_multipliers", copied(&Self::report, &MarchReport::event_multipliers))
+      .def_prop_ro("steady_cycle", copied(&Self::report, &MarchReport::steady_cycle),
+                   "0: not reached")
+      .def_prop_ro("steady_period", copied(&Self::report, &MarchReport::steady_period))
       .def_prop_ro(
          "loss_error", [](const Self &self) { return self.report.loss_error.value; },
          "how far the loss, in all or of a cycle, may be from that of the path; nan: not known")
@@ -462,25 +401,28 @@ void bind_marches(nb::module_ &m)
          [](const Self &self) { return self.report.loss_error.bound ? "bound" : "estimate"; },
          "'bound' where the exact path was followed beside the march, else 'estimate'")
       .def_prop_ro(
-         "loss_error_by", [](const Self &self) { return self.report.loss_error.by; },
+         "loss_error_by",
+         [](const Self &self)
+         {
+            const LossError &error = self.report.loss_error;
+            const bool asked = !error.by.empty() || !std::isnan(error.value);
+            return asked ? error.by : "it was not asked for: MarchSettings.loss_error";
+         },
          "what was marched beside it, or why nothing is known")
       .def_prop_ro(
-         "energy_imbalance", [](const Self &self) { return self.report.energy_imbalance; },
+         "energy_imbalance", copied(&Self::report, &MarchReport::energy_imbalance),
          "balance of the energies, relative; of second order in the increments, so that it is "
          "no "
          "measure of loss_error")
-      .def_prop_ro(
-         "advance_error", [](const Self &self) { return self.report.advance_error; },
-         "estimate, of friction forces where contact advances in increments")
-      .def_prop_ro("largest_residual",
-                   [](const Self &self) { return self.report.largest_residual; })
+      .def_prop_ro("advance_error", copied(&Self::report, &MarchReport::advance_error),
+                   "estimate, of friction forces where contact advances in increments")
+      .def_prop_ro("largest_residual", copied(&Self::report, &MarchReport::largest_residual))
       .def_prop_ro("taken_up_clearance",
-                   [](const Self &self) { return self.report.taken_up_clearance; })
-      .def_prop_ro(
-         "fallbacks", [](const Self &self) { return self.report.fallbacks; },
-         "increments taken because there was no exact path")
-      .def_prop_ro("seconds", [](const Self &self) { return self.report.seconds; })
-      .def_prop_ro("counters", [](const Self &self) { return self.report.counters; })
+                   copied(&Self::report, &MarchReport::taken_up_clearance))
+      .def_prop_ro("fallbacks", copied(&Self::report, &MarchReport::fallbacks),
+                   "increments taken because there was no exact path")
+      .def_prop_ro("seconds", copied(&Self::report, &MarchReport::seconds))
+      .def_prop_ro("counters", copied(&Self::report, &MarchReport::counters))
       .def(
          "plot",
          [](nb::object self, nb::args positional, nb::kwargs named) {
@@ -492,68 +434,32 @@ void bind_marches(nb::module_ &m)
          "varies; needs matplotlib. Returns its axes.")
       .def("__repr__", &brief);
 
-   const FrictionSettings friction;
-   const MarchSettings settings;
+   MarchSettings told; // unless they are given
+   told.loss_error = true;
    m.def(
-      "march",
-      [](Of<ReducedProblem> problem, nb::object history, nb::object state, Whole increments,
-         Text stepping, Flag single_increment_if_exact, Whole max_halvings,
-         Flag stop_at_steady_state, Number steady_tolerance, Text method, Number tolerance,
-         Flag keep_states, Flag loss_error, nb::object observer, nb::object progress,
-         nb::object stop)
-      {
-         MarchSettings settings = march_settings(
-            increments, stepping, single_increment_if_exact, max_halvings, method);
-         settings.stop_at_steady_state = flag(stop_at_steady_state, "stop_at_steady_state");
-         settings.steady_tolerance = number(steady_tolerance, "steady_tolerance");
-         settings.friction.tolerance = number(tolerance, "tolerance");
-         settings.loss_error = flag(loss_error, "loss_error");
-         settings.validate();
-         return march_from(problem.object, history, state, settings, keep_states, observer,
-                           progress, stop);
-      },
-      arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
-      arg("increments") = settings.increments, arg("stepping") = "advancing",
-      arg("single_increment_if_exact") = settings.single_increment_if_exact,
-      arg("max_halvings") = settings.max_halvings,
-      arg("stop_at_steady_state") = settings.stop_at_steady_state,
-      arg("steady_tolerance") = settings.steady_tolerance, arg("method") = "automatic",
-      arg("tolerance") = friction.tolerance, arg("keep_states") = false,
-      arg("loss_error") = true, arg("observer") = nb::none(), arg("progress") = false,
-      arg("stop") = nb::none(),
-      nb::sig(
-         "def march(problem: ReducedProblem, history: LoadHistory | "
-         "collections.abc.Sequence[collections.abc.Mapping[str, float]], state: None | "
-         "ContactState = None, *, increments: int = 20, stepping: str = 'advancing', "
-         "single_increment_if_exact: bool = True, max_halvings: int = 12, "
-         "stop_at_steady_state: "
-         "bool = True, steady_tolerance: float = 1e-10, method: str = 'automatic', tolerance: "
-         "float = 1e-12, keep_states: bool = False, loss_error: bool = True, observer: "
-         "None | collections.abc.Callable[[ContactState], object] = None, progress: bool | "
-         "collections.abc.Callable[[Progress], object] = False, stop: None | threading.Event = "
-         "None) -> MarchReport"),
+      "march", &march_from, arg("problem"), arg("history"), arg("state") = nb::none(),
+      nb::kw_only(), arg("settings") = told, arg("keep_states") = false,
+      arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
       "Marches a contact along a load history, from rest or from `state`, which stays as it "
       "is.\n\n"
-      "history: points, [{}, {'P': 1}, {'P': 1, 'Q': 0.2}], the first of which is where the "
-      "state stands; or a LoadHistory, whose times are its own: a march that was stopped is "
-      "taken "
-      "up with the same history and the state it came to.\n"
-      "increments: of each piece of the history. stepping: 'advancing', 'fixed', or 'exact', "
-      "from one change of state to the next without increments.\n"
+      "history: points, [{}, {'P': 1}, {'Q': 0.2}], the first of which is where the state "
+      "stands; a load that a point does not name keeps its value. Or a LoadHistory, whose "
+      "times "
+      "are its own: a march that was stopped is taken up with the same history and the state "
+      "it "
+      "came to.\n"
+      "settings: how it is marched. Those that are given say whether the error of the loss is "
+      "asked for.\n"
       "keep_states: keeps the state of every increment. observer: is called with each.\n"
-      "loss_error: where increments are taken, march beside them to say how wrong their loss "
-      "may be; that takes as long again in the plane, half as long with two tangential "
-      "components.\n"
       "progress: True shows a line on stderr; a function is called with Progress. Other "
-      "threads "
-      "run meanwhile; Ctrl-C raises KeyboardInterrupt, and `stop`, a threading.Event, ends the "
-      "march with status 'stopped' and what there is.\n\n"
+      "threads run meanwhile; Ctrl-C raises KeyboardInterrupt, and `stop`, a threading.Event, "
+      "ends the march with status 'stopped' and what there is.\n\n"
       "An outcome other than 'converged' is warned of (OutcomeWarning) and stands in the "
       "report.");
    m.def(
       "conjugates",
-      [](Of<ReducedProblem> problem, Of<ContactState> state)
-      { return array(conjugates(given(problem, "problem"), given(state, "state"))); },
+      [](const ReducedProblem &problem, const ContactState &state)
+      { return array(conjugates(problem, state)); },
       arg("problem"), arg("state"),
       "What does work with each load's multiplier: displacement of a force, reaction of a "
       "displacement.");

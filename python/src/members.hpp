@@ -2,6 +2,9 @@
 
 #include "arguments.hpp"
 #include <cattaneo/friction/friction_solver.hpp>
+#include <functional>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 // Members that several classes have.
 
@@ -24,10 +27,33 @@ template <class T>
 void bind_validate(nb::class_<T> &value)
 {
    value.def(
-      "validate",
-      [](const T &self, Of<ReducedProblem> problem)
-      { self.validate(given(problem, "problem")); },
+      "validate", [](const T &self, const ReducedProblem &problem) { self.validate(problem); },
       arg("problem"), "InputError unless it is one of the problem.");
+}
+
+/// A getter of what `get` makes of each entry of a member, as a list.
+template <class T, class Range, class Get>
+auto each_of(Range T::*range, Get get)
+{
+   return [range, get](const T &self)
+   {
+      std::vector<std::decay_t<decltype(std::invoke(get, *(self.*range).begin()))>> all;
+      for (const auto &each : self.*range) { all.push_back(std::invoke(get, each)); }
+      return all;
+   };
+}
+
+/// References to entries of an object, which keep it alive.
+template <class T, class Range, class Get>
+nb::list references(T &self, Range &range, Get get)
+{
+   nb::list all;
+   for (auto &each : range)
+   {
+      all.append(
+         nb::cast(std::invoke(get, each), nb::rv_policy::reference_internal, nb::find(self)));
+   }
+   return all;
 }
 
 /// How marching ended. `report` gives what has a status and a message.
@@ -42,15 +68,6 @@ void bind_outcome(nb::class_<T> &value, Report report)
       .def_prop_ro("converged", [report](const T &self)
                    { return report(self).status == FrictionStatus::converged; })
       .def_prop_ro("message", [report](const T &self) { return report(self).message; });
-}
-
-/// Refuses what is neither a function nor None.
-inline void require_observer(nb::handle observer)
-{
-   if (!observer.is_none() && PyCallable_Check(observer.ptr()) == 0)
-   {
-      refuse(observer, "observer", "a function or None");
-   }
 }
 
 } // namespace cattaneo::python

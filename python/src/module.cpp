@@ -73,13 +73,12 @@ void bind_common(nb::module_ &m)
       },
       nb::sig("def keys(self) -> list[str]"));
    counters.def("__getitem__",
-                [](const Counters &self, python::Text name)
+                [](const Counters &self, const std::string &name)
                 {
-                   const std::string wanted = python::text(name, "counter");
                    long found = -1;
                    Counters::for_each(self, [&](const char *each, long value)
-                                      { found = each == wanted ? value : found; });
-                   if (found < 0) { throw nb::key_error(wanted.c_str()); }
+                                      { found = each == name ? value : found; });
+                   if (found < 0) { throw nb::key_error(name.c_str()); }
                    return found;
                 });
    counters.def(
@@ -109,5 +108,4 @@ NB_MODULE(_core, m)
    python::bind_fretting(m);
    python::bind_wear(m);
    python::bind_design(m);
-   python::explain_calls(m);
 }

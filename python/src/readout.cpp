@@ -1,5 +1,7 @@
 #include "readout.hpp"
+#include "FitSettings.hpp"
 #include "arrays.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -10,34 +12,14 @@
 namespace cattaneo::python
 {
 
-CrackedBody cracked_body(nb::handle word)
-{
-   return chosen<CrackedBody>(word, "cracked", {"first", "second"});
-}
-
-FitSettings fit_settings(nb::handle window, nb::handle skip)
-{
-   FitSettings settings;
-   if (!window.is_none())
-   {
-      const Eigen::VectorXd range = vector(window, "window", 2);
-      settings.window = {range[0], range[1]};
-   }
-   settings.skip = static_cast<int>(whole(skip, "skip", 0, 1 << 20));
-   settings.validate();
-   return settings;
-}
-
 namespace
 {
 
-/// A problem and a state of it, checked against each other.
-const ReducedProblem &problem_of(const Of<ReducedProblem> &problem,
-                                 const Of<ContactState> &state, const char *what = "state")
+/// The state, which must be one of the problem.
+const ContactState &checked(const ReducedProblem &problem, const ContactState &state)
 {
-   const ReducedProblem &of = given(problem, "problem");
-   given(state, what).validate(of);
-   return of;
+   state.validate(problem);
+   return state;
 }
 
 std::string with_error(double value, double error)
@@ -80,33 +62,33 @@ void bind_zones(nb::module_ &m)
 
    m.def(
       "zones",
-      [](Of<ReducedProblem> problem, Of<ContactState> state)
-      { return zones(problem_of(problem, state), given(state, "state")); },
+      [](const ReducedProblem &problem, const ContactState &state)
+      { return zones(problem, checked(problem, state)); },
       arg("problem"), arg("state"),
       "Zones of a state along the contact line, in the order of the nodes.");
    m.def(
       "contact_zones",
-      [](Of<ReducedProblem> problem, Of<ContactState> state)
-      { return contact_zones(zones(problem_of(problem, state), given(state, "state"))); },
+      [](const ReducedProblem &problem, const ContactState &state)
+      { return contact_zones(zones(problem, checked(problem, state))); },
       arg("problem"), arg("state"), "Stretches of contact, whatever slips.");
    m.def(
       "contact_zone",
-      [](Of<ReducedProblem> problem, Of<ContactState> state)
-      { return contact_zone(problem_of(problem, state), given(state, "state")); },
+      [](const ReducedProblem &problem, const ContactState &state)
+      { return contact_zone(problem, checked(problem, state)); },
       arg("problem"), arg("state"), "The widest stretch of contact.");
    m.def(
       "stick_zone",
-      [](Of<ReducedProblem> problem, Of<ContactState> state)
-      { return stick_zone(problem_of(problem, state), given(state, "state")); },
+      [](const ReducedProblem &problem, const ContactState &state)
+      { return stick_zone(problem, checked(problem, state)); },
       arg("problem"), arg("state"), "The widest zone of stick.");
    m.def(
       "tractions",
-      [](Of<ReducedProblem> problem, Numbers nodal_forces)
+      [](const ReducedProblem &problem, Numbers nodal_forces)
       {
-         const ReducedProblem &of = given(problem, "problem");
-         require(of.weights.size() == of.nodes(),
+         require(problem.weights.size() == problem.nodes(),
                  "the problem has no weights, which tractions need");
-         return array(tractions(of, vector(nodal_forces, "nodal_forces", of.nodes())));
+         return array(
+            tractions(problem, vector(nodal_forces, "nodal_forces", problem.nodes())));
       },
       arg("problem"), arg("nodal_forces"),
       "Forces over consistent weights, of one component: size n.");
@@ -129,17 +111,16 @@ void bind_edges(nb::module_ &m)
    nb::class_<EdgeTractions>(m, "EdgeTractions", "Tractions near an edge, from any solution.")
       .def(
          "__init__",
-         [](EdgeTractions *self, Number edge, Numbers position, Numbers pressure, Numbers shear,
-            Number width)
+         [](EdgeTractions *self, double edge, Numbers position, Numbers pressure, Numbers shear,
+            double width)
          {
             const auto list = [](nb::handle values, const char *what)
             {
                const Eigen::VectorXd all = vector(values, what);
                return std::vector<double>(all.data(), all.data() + all.size());
             };
-            EdgeTractions made{number(edge, "edge"), list(position, "position"),
-                               list(pressure, "pressure"), list(shear, "shear"),
-                               number(width, "width")};
+            EdgeTractions made{finite(edge, "edge"), list(position, "position"),
+                               list(pressure, "pressure"), list(shear, "shear"), width};
             made.validate();
             new (self) EdgeTractions(std::move(made));
          },
@@ -164,10 +145,10 @@ void bind_edges(nb::module_ &m)
            });
    m.def(
       "fit_edge",
-      [](Of<EdgeTractions> tractions, Window window, Whole skip)
-      { return fit_edge(given(tractions, "tractions"), fit_settings(window, skip)); },
-      arg("tractions"), arg("window") = nb::none(), arg("skip") = FitSettings().skip,
-      "K_N and K_T by least squares; window: distances from the edge, chosen unless given.");
+      [](const EdgeTractions &tractions, const FitSettings &settings)
+      { return fit_edge(tractions, settings); },
+      arg("tractions"), nb::kw_only(), arg("settings") = FitSettings(),
+      "K_N and K_T by least squares.");
 
    nb::class_<ContactEdge>(m, "ContactEdge", "One end of a stretch of contact.")
       .def_ro("position", &ContactEdge::position)
@@ -185,6 +166,7 @@ void bind_edges(nb::module_ &m)
            [](const ContactEdge &self)
            {
               std::ostringstream text;
+
               text << "<ContactEdge at "
                    << with_error(self.position.position, self.position.error) << ": ";
               if (!self.why_not.empty()) { text << self.why_not << ">"; }
@@ -198,35 +180,27 @@ void bind_edges(nb::module_ &m)
            });
    m.def(
       "contact_edges",
-      [](Of<ReducedProblem> problem, Of<ContactState> pressed, Of<ContactState> loaded,
-         Text cracked, Window window, Whole skip)
+      [](const ReducedProblem &problem, const ContactState &pressed, const ContactState &loaded,
+         const std::string &cracked, const FitSettings &settings)
       {
-         const ReducedProblem &of = problem_of(problem, pressed, "pressed");
-         problem_of(problem, loaded, "loaded");
-         return contact_edges(of, given(pressed, "pressed"), given(loaded, "loaded"),
-                              cracked_body(cracked), fit_settings(window, skip));
+         return contact_edges(problem, checked(problem, pressed), checked(problem, loaded),
+                              cracked_body(cracked), settings);
       },
-      arg("problem"), arg("pressed"), arg("loaded"), arg("cracked") = "second",
-      arg("window") = nb::none(), arg("skip") = FitSettings().skip,
+      arg("problem"), arg("pressed"), arg("loaded"), arg("cracked") = "second", nb::kw_only(),
+      arg("settings") = FitSettings(),
       "K_N, K_T and the slip zone at each end of each stretch of contact.\n\npressed: after "
       "the "
       "normal load alone. loaded: at peak load. cracked: 'first' or 'second' body.");
    m.def(
       "edge_tractions",
-      [](Of<ReducedProblem> problem, Of<ContactState> state, Of<ContactEdge> edge, Text cracked)
-      {
-         return edge_tractions(problem_of(problem, state), given(state, "state"),
-                               given(edge, "edge"), cracked_body(cracked));
-      },
+      [](const ReducedProblem &problem, const ContactState &state, const ContactEdge &edge,
+         const std::string &cracked)
+      { return edge_tractions(problem, checked(problem, state), edge, cracked_body(cracked)); },
       arg("problem"), arg("state"), arg("edge"), arg("cracked") = "second");
    m.def(
       "fully_stuck",
-      [](Of<ReducedProblem> problem, Of<ContactState> pressed, Of<ContactState> loaded)
-      {
-         const ReducedProblem &of = problem_of(problem, pressed, "pressed");
-         problem_of(problem, loaded, "loaded");
-         return fully_stuck(of, given(pressed, "pressed"), given(loaded, "loaded"));
-      },
+      [](const ReducedProblem &problem, const ContactState &pressed, const ContactState &loaded)
+      { return fully_stuck(problem, checked(problem, pressed), checked(problem, loaded)); },
       arg("problem"), arg("pressed"), arg("loaded"),
       "The state if nothing had slipped since `pressed`.");
 }
@@ -237,6 +211,7 @@ void bind_readout(nb::module_ &m)
 {
    nb::module_ readout =
       m.def_submodule("readout", "What a state says: zones and edges of contact, tractions.");
+   bind_settings<FitSettings>(readout);
    bind_zones(readout);
    bind_edges(readout);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "arguments.hpp"
+#include "words.hpp"
 #include <cattaneo/readout/contact_edges.hpp>
 
 // What functions share that read out edges of contact.
@@ -8,10 +8,10 @@
 namespace cattaneo::python
 {
 
-CATTANEO_ARGUMENT(Window, "None | tuple[float, float]");
-
-CrackedBody cracked_body(nb::handle word);
-/// window: None or two distances from the edge.
-FitSettings fit_settings(nb::handle window, nb::handle skip);
+/// The body by its word.
+inline CrackedBody cracked_body(const std::string &cracked)
+{
+   return chosen<CrackedBody>(cracked, "cracked");
+}
 
 } // namespace cattaneo::python

@@ -4,8 +4,8 @@
 #include "watch.hpp"
 #include <cattaneo/design/edge_response.hpp>
 #include <cattaneo/design/limit_gradient.hpp>
-#include <limits>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 // Responses at edges of contact, and derivatives of shakedown limits.
 
@@ -15,17 +15,11 @@ namespace cattaneo::python
 namespace
 {
 
-std::size_t state_number(nb::handle state, const char *what = "state")
-{
-   return static_cast<std::size_t>(whole(state, what, 0, std::numeric_limits<int>::max()));
-}
-
 /// The trace, of the problem as it was marched.
-const MarchTrace &trace_of(const Of<ReducedProblem> &problem, const Of<Trace> &trace)
+const MarchTrace &trace_of(const ReducedProblem &problem, const Trace &trace)
 {
-   const Trace &of = given(trace, "trace");
-   of.check(given(problem, "problem"));
-   return of.trace;
+   trace.check(problem);
+   return trace.trace;
 }
 
 void bind_edge_responses(nb::module_ &m)
@@ -35,15 +29,14 @@ void bind_edge_responses(nb::module_ &m)
       .def_ro("k_t", &EdgeIntensities::k_t);
    m.def(
       "edge_intensities",
-      [](Of<ReducedProblem> problem, Of<Trace> trace, Whole state, Of<ContactEdge> edge,
-         Text cracked, Window window, Whole skip)
+      [](const ReducedProblem &problem, const Trace &trace, std::size_t state,
+         const ContactEdge &edge, const std::string &cracked, const FitSettings &settings)
       {
-         return edge_intensities(given(problem, "problem"), trace_of(problem, trace),
-                                 state_number(state), given(edge, "edge"),
-                                 cracked_body(cracked), fit_settings(window, skip));
+         return edge_intensities(problem, trace_of(problem, trace), state, edge,
+                                 cracked_body(cracked), settings);
       },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("cracked") = "second",
-      arg("window") = nb::none(), arg("skip") = FitSettings().skip,
+      nb::kw_only(), arg("settings") = FitSettings(),
       "Those of readout.fit_edge() from the tractions of a state; the place of the edge and "
       "the "
       "windows are those of now, and stay. K_T is that of a stuck contact: of trace_stuck().");
@@ -53,40 +46,32 @@ void bind_edge_responses(nb::module_ &m)
       .def_ro("k_two", &CornerIntensities::k_two, "zero without a second mode");
    m.def(
       "corner_intensities",
-      [](Of<ReducedProblem> problem, Of<Trace> trace, Whole state, Of<ContactEdge> edge,
-         Of<fretting::CornerModes> modes, Text cracked, Window window, Whole skip)
+      [](const ReducedProblem &problem, const Trace &trace, std::size_t state,
+         const ContactEdge &edge, const fretting::CornerModes &modes,
+         const std::string &cracked, const FitSettings &settings)
       {
-         return corner_intensities(given(problem, "problem"), trace_of(problem, trace),
-                                   state_number(state), given(edge, "edge"),
-                                   given(modes, "modes"), cracked_body(cracked),
-                                   fit_settings(window, skip));
+         return corner_intensities(problem, trace_of(problem, trace), state, edge, modes,
+                                   cracked_body(cracked), settings);
       },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("modes"),
-      arg("cracked") = "second", arg("window") = nb::none(), arg("skip") = FitSettings().skip,
+      arg("cracked") = "second", nb::kw_only(), arg("settings") = FitSettings(),
       "Those of fretting.fit_corner() at an edge that is complete, of trace_stuck().");
    nb::class_<MovingEdge>(m, "MovingEdge", "An edge that moves, and the pressure's K_N there.")
       .def_ro("position", &MovingEdge::position, "arc length")
       .def_ro("k_n", &MovingEdge::k_n);
    m.def(
       "moving_edge",
-      [](Of<ReducedProblem> problem, Of<Trace> trace, Whole state, Of<ContactEdge> edge,
-         Window window, Whole skip)
-      {
-         return moving_edge(given(problem, "problem"), trace_of(problem, trace),
-                            state_number(state), given(edge, "edge"),
-                            fit_settings(window, skip));
-      },
-      arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("window") = nb::none(),
-      arg("skip") = FitSettings().skip,
+      [](const ReducedProblem &problem, const Trace &trace, std::size_t state,
+         const ContactEdge &edge, const FitSettings &settings)
+      { return moving_edge(problem, trace_of(problem, trace), state, edge, settings); },
+      arg("problem"), arg("trace"), arg("state"), arg("edge"), nb::kw_only(),
+      arg("settings") = FitSettings(),
       "Both of one fit to the square of the pressure; for an edge that is not complete.");
    m.def(
       "trace_stuck",
-      [](Of<ReducedProblem> problem, Of<Trace> trace, Whole pressed, Whole loaded)
-      {
-         const MarchTrace &from = trace_of(problem, trace);
-         return Trace(problem.object, trace_stuck(given(problem, "problem"), from,
-                                                  state_number(pressed, "pressed"),
-                                                  state_number(loaded, "loaded")));
+      [](const ReducedProblem &problem, const Trace &trace, std::size_t pressed,
+         std::size_t loaded) {
+         return Trace(problem, trace_stuck(problem, trace_of(problem, trace), pressed, loaded));
       },
       arg("problem"), arg("trace"), arg("pressed"), arg("loaded"),
       "The trace up to its state `pressed`, and then readout.fully_stuck() under the loads of "
@@ -119,12 +104,11 @@ void bind_limit_gradients(nb::module_ &m)
       .def_prop_ro("stiffness", viewed(&Self::stiffness), "by each StiffnessChange");
    m.def(
       "load_limit_gradient",
-      [](Of<LimitProblem> problem, Of<LimitReport> limit, Changes stiffness)
+      [](const LimitProblem &problem, const LimitReport &limit,
+         const std::vector<StiffnessChange> &stiffness)
       {
          return known_or_warned("load_limit_gradient",
-                                load_limit_gradient(given(problem, "problem"),
-                                                    given(limit, "limit"),
-                                                    stiffness_changes(stiffness)));
+                                load_limit_gradient(problem, limit, stiffness));
       },
       arg("problem"), arg("limit"), arg("stiffness") = nb::tuple(),
       "Of shakedown.load_limit(), whose report `limit` is. If it is not known that is warned "
@@ -132,13 +116,13 @@ void bind_limit_gradients(nb::module_ &m)
       "(OutcomeWarning).");
    m.def(
       "friction_limit_gradient",
-      [](Of<LimitProblem> problem, Number load_factor, Of<LimitReport> limit, Changes stiffness)
+      [](const LimitProblem &problem, double load_factor, const LimitReport &limit,
+         const std::vector<StiffnessChange> &stiffness)
       {
          return known_or_warned("friction_limit_gradient",
-                                friction_limit_gradient(given(problem, "problem"),
-                                                        number(load_factor, "load_factor"),
-                                                        given(limit, "limit"),
-                                                        stiffness_changes(stiffness)));
+                                friction_limit_gradient(problem,
+                                                        finite(load_factor, "load_factor"),
+                                                        limit, stiffness));
       },
       arg("problem"), arg("load_factor"), arg("limit"), arg("stiffness") = nb::tuple(),
       "Of shakedown.friction_limit() at a load factor.");

@@ -2,12 +2,16 @@
 #include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
+#include "words.hpp"
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/wear/wear_march.hpp>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 #include <sstream>
 
 // The narrow waist: a contact problem as plain data.
@@ -18,14 +22,23 @@ namespace cattaneo::python
 namespace
 {
 
-CATTANEO_ARGUMENT(Patterns, "collections.abc.Sequence[LoadPattern]");
-CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(Sparse,
+                  "numpy.typing.ArrayLike | scipy.sparse.sparray | scipy.sparse.spmatrix",
+                  anything);
 
 using Self = ReducedProblem;
 
-ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C, nb::handle patterns,
-                            nb::handle gap, nb::handle friction, nb::handle weights,
-                            nb::handle arc_length, nb::handle position, nb::handle H)
+/// No rows: there is none.
+Eigen::MatrixXd mass(nb::object M)
+{
+   if (nb::hasattr(M, "toarray")) { M = M.attr("toarray")(); } // SciPy's sparse ones
+   return M.is_none() ? Eigen::MatrixXd() : matrix(M, "M");
+}
+
+ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C,
+                            const std::vector<LoadPattern> &patterns, nb::handle gap,
+                            nb::handle friction, nb::handle weights, nb::handle arc_length,
+                            nb::handle position, nb::handle H)
 {
    ReducedProblem problem;
    const Eigen::MatrixXd normal = matrix(C, "C");
@@ -37,14 +50,12 @@ ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C, nb::handle
    require(tangential.cols() == slips && slips <= 2 * n && slips % n == 0, "A has shape (",
            slips, ", ", tangential.cols(), "), must be square with 0, 1 or 2 rows a node, of ",
            n, " nodes");
-   for (const nb::object &each : sequence(patterns, "patterns"))
+   for (const LoadPattern &pattern : patterns)
    {
-      const std::string what = "patterns[" + std::to_string(problem.patterns.size()) + "]";
-      LoadPattern pattern = given<LoadPattern>(each, what);
-      require(pattern.q.size() == slips && pattern.p.size() == n, what, " has ",
-              pattern.q.size(), " tangential and ", pattern.p.size(),
-              " normal forces, must have ", slips, " and ", n);
-      problem.patterns.push_back(std::move(pattern));
+      require(pattern.q.size() == slips && pattern.p.size() == n, "patterns[",
+              problem.patterns.size(), "] has ", pattern.q.size(), " tangential and ",
+              pattern.p.size(), " normal forces, must have ", slips, " and ", n);
+      problem.patterns.push_back(pattern);
    }
    problem.gap = vector_or_number(gap, "gap", n);
    problem.friction = vector_or_number(friction, "friction", n);
@@ -84,9 +95,8 @@ ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C, nb::handle
 
 nb::list chains(const Self &self)
 {
-   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry", "open"};
    const auto both = [&](const std::array<LineEnd, 2> &of)
-   { return nb::make_tuple(ends[static_cast<int>(of[0])], ends[static_cast<int>(of[1])]); };
+   { return nb::make_tuple(word(of[0]), word(of[1])); };
    nb::list all;
    for (const ContactChain &chain : self.chains)
    {
@@ -161,11 +171,11 @@ void bind_reduced_problems(nb::module_ &m)
                            "contact node moved.")
       .def(
          "__init__",
-         [](LoadPattern *self, Text name, Numbers q, Numbers p, Text control)
+         [](LoadPattern *self, const std::string &name, Numbers q, Numbers p,
+            const std::string &control)
          {
-            LoadPattern pattern{text(name, "name"),
-                                chosen<Control>(control, "control", {"force", "displacement"}),
-                                vector(q, "q"), vector(p, "p")};
+            LoadPattern pattern{name, chosen<Control>(control, "control"), vector(q, "q"),
+                                vector(p, "p")};
             require(!pattern.name.empty(), "name is '', a load must have one");
             new (self) LoadPattern(std::move(pattern));
          },
@@ -181,6 +191,7 @@ void bind_reduced_problems(nb::module_ &m)
            [](const LoadPattern &self)
            {
               std::ostringstream text;
+
               text << "<LoadPattern '" << self.name << "': a "
                    << (self.control == Control::force ? "force" : "displacement")
                    << ", tangential sum " << self.q.sum() << ", normal sum " << self.p.sum()
@@ -199,9 +210,9 @@ void bind_reduced_problems(nb::module_ &m)
    problem
       .def(
          "__init__",
-         [](Self *self, Numbers A, Numbers B, Numbers C, Patterns patterns, Numbers gap,
-            Numbers friction, MaybeNumbers weights, MaybeNumbers arc_length,
-            MaybeNumbers position, MaybeNumbers H)
+         [](Self *self, Numbers A, Numbers B, Numbers C,
+            const std::vector<LoadPattern> &patterns, Numbers gap, Numbers friction,
+            Numbers weights, Numbers arc_length, Numbers position, Numbers H)
          {
             new (self) Self(made_by_hand(A, B, C, patterns, gap, friction, weights, arc_length,
                                          position, H));
@@ -217,56 +228,29 @@ void bind_reduced_problems(nb::module_ &m)
       .def_prop_ro("components", &Self::components, "c")
       .def_prop_ro("K", viewed(&Self::K), "(c n + n, c n + n), the whole stiffness; no copy")
       .def_prop_ro(
-         "A",
-         [](nb::handle_t<Self> self)
-         { return view(std::as_const(given<Self>(self, "self")).A(), self); },
+         "A", [](const Self &self) { return view(self.A(), nb::find(self)); },
          "(c n, c n); no copy")
       .def_prop_ro(
-         "B",
-         [](nb::handle_t<Self> self)
-         { return view(std::as_const(given<Self>(self, "self")).B(), self); },
+         "B", [](const Self &self) { return view(self.B(), nb::find(self)); },
          "(n, c n); no copy")
       .def_prop_ro(
-         "C",
-         [](nb::handle_t<Self> self)
-         { return view(std::as_const(given<Self>(self, "self")).C(), self); },
+         "C", [](const Self &self) { return view(self.C(), nb::find(self)); },
          "(n, n); no copy")
       .def_ro("coupled", &Self::coupled, "is B not zero?")
       .def_prop_ro(
-         "patterns",
-         [](const Self &self)
-         {
-            nb::list all;
-            for (const LoadPattern &each : self.patterns)
-            {
-               all.append(nb::cast(LoadPattern(each)));
-            }
-            return all;
-         },
-         nb::sig("def patterns(self) -> list[LoadPattern]"), "copies")
-      .def_prop_ro(
-         "loads",
-         [](const Self &self)
-         {
-            nb::list names;
-            for (const LoadPattern &each : self.patterns) { names.append(each.name); }
-            return names;
-         },
-         nb::sig("def loads(self) -> list[str]"), "names of the load patterns")
+         "patterns", [](const Self &self) { return self.patterns; }, "copies")
+      .def_prop_ro("loads", each_of(&Self::patterns, &LoadPattern::name),
+                   "names of the load patterns")
       .def_prop_ro(
          "H", [](const Self &self) { return array(self.H); },
          "loads by loads with clamped contact; no rows: not known")
       .def_prop_rw(
-         "gap",
-         [](nb::handle_t<Self> self)
-         { return view<double>(given<Self>(self, "self").gap, self); },
+         "gap", [](Self &self) { return view<double>(self.gap, nb::find(self)); },
          [](Self &self, Numbers gap) { set_numbers(self.gap, gap, "gap", self.nodes()); },
          nb::for_setter(arg("gap")),
          "of each node, closed where w + gap = 0; a number sets all of them")
       .def_prop_rw(
-         "friction",
-         [](nb::handle_t<Self> self)
-         { return view<double>(given<Self>(self, "self").friction, self); },
+         "friction", [](Self &self) { return view<double>(self.friction, nb::find(self)); },
          [](Self &self, Numbers friction)
          {
             set_numbers(self.friction, friction, "friction", self.nodes());
@@ -278,21 +262,13 @@ void bind_reduced_problems(nb::module_ &m)
          "slope, which is not to be changed in place")
       .def_prop_ro(
          "laws",
-         [](const Self &self)
-         {
-            nb::list all;
-            for (const FrictionLaw &law : self.laws)
-            {
-               all.append(nb::make_tuple(array(law.forward), array(law.backward)));
-            }
-            return all;
-         },
-         nb::sig("def laws(self) -> list[tuple[numpy.ndarray, numpy.ndarray]]"),
+         each_of(&Self::laws, [](const FrictionLaw &law)
+                 { return std::pair(array(law.forward), array(law.backward)); }),
          "Of each node, points (p, bound) of nodal forces for slip forward and backward; none: "
          "Coulomb's law")
       .def(
          "set_friction_law",
-         [](Self &self, Numbers points, MaybeNumbers backward, MaybeNumbers nodes)
+         [](Self &self, Numbers points, Numbers backward, Numbers nodes)
          {
             const Eigen::MatrixX2d forward = matrix(points, "points", -1, 2);
             FrictionLaw law{forward, forward};
@@ -300,10 +276,9 @@ void bind_reduced_problems(nb::module_ &m)
             std::vector<Index> chosen;
             if (!nodes.is_none())
             {
-               for (const nb::object &each : sequence(nodes, "nodes"))
-               {
-                  chosen.push_back(whole(each, "nodes", 0, self.nodes() - 1));
-               }
+               const std::vector<int> all =
+                  indices(nodes, "nodes", 0, static_cast<long>(self.nodes()) - 1);
+               chosen.assign(all.begin(), all.end());
                require(!chosen.empty(), "nodes is empty, must name a node, or be None for all");
             }
             set_friction_law(self, law, chosen);
@@ -333,13 +308,13 @@ void bind_reduced_problems(nb::module_ &m)
          "rows of A at which v = 0")
       .def(
          "multipliers",
-         [](const Self &self, Loads loads)
-         { return array(self.multipliers(named_loads(loads, "loads"))); },
+         [](const Self &self, const NamedLoads &loads)
+         { return array(self.multipliers(loads)); },
          arg("loads"), "in the order of the patterns, zero for those that are not named")
       .def(
          "clamped_forces",
-         [](const Self &self, Loads loads)
-         { return array(self.clamped_forces(self.multipliers(named_loads(loads, "loads")))); },
+         [](const Self &self, const NamedLoads &loads)
+         { return array(self.clamped_forces(self.multipliers(loads))); },
          arg("loads"), "{q; p} under loads if no node moved")
       .def("validate",
            [](const Self &self)
@@ -351,69 +326,43 @@ void bind_reduced_problems(nb::module_ &m)
 
    m.def(
       "hold",
-      [](Of<Self> problem, Numbers rows)
+      [](Self &problem, Numbers rows)
       {
-         Self &of = given(problem, "problem");
          const std::vector<int> held =
-            indices(rows, "rows", 0, static_cast<long>(of.slips()) - 1);
-         hold(of, {held.begin(), held.end()});
+            indices(rows, "rows", 0, static_cast<long>(problem.slips()) - 1);
+         hold(problem, {held.begin(), held.end()});
       },
       arg("problem"), arg("rows"), "Holds rows of A: v = 0 there.");
    m.def(
       "set_friction",
-      [](Of<Self> problem, Number coefficient)
-      {
-         Self &of = given(problem, "problem");
-         const double same = number(coefficient, "coefficient");
-         set_numbers(of.friction, nb::cast(same), "friction", of.nodes());
-      },
+      [](Self &problem, double coefficient)
+      { set_numbers(problem.friction, nb::cast(coefficient), "friction", problem.nodes()); },
       arg("problem"), arg("coefficient"), "The same coefficient at every node.");
-   m.def(
-      "absorb_gap", [](Of<Self> problem) { return absorb_gap(given(problem, "problem")); },
-      arg("problem"),
-      "The equivalent problem without a gap, whose load 'gap' is to be held at 1.");
+   m.def("absorb_gap", &absorb_gap, arg("problem"),
+         "The equivalent problem without a gap, whose load 'gap' is to be held at 1.");
 
    m.def(
-      "save",
-      [](nb::object of, File name)
-      {
-         if (nb::isinstance<Self>(of)) { save(given<Self>(of, "of"), file(name)); }
-         else if (nb::isinstance<ContactState>(of))
-         {
-            save(given<ContactState>(of, "of"), file(name));
-         }
-         else if (nb::isinstance<WearState>(of))
-         {
-            save(given<WearState>(of, "of"), file(name));
-         }
-         else { refuse(of, "of", "of class ReducedProblem, ContactState or WearState"); }
-      },
-      arg("of"), arg("file"),
-      nb::sig("def save(of: ReducedProblem | ContactState | wear.WearState, file: str | "
-              "os.PathLike[str]) -> None"),
+      "save", [](const Self &of, File name) { save(of, file(name)); }, arg("of"), arg("file"),
       "Writes a reduced problem or a state as JSON, restored to the last bit.");
+   m.def(
+      "save", [](const ContactState &of, File name) { save(of, file(name)); }, arg("of"),
+      arg("file"));
+   m.def(
+      "save", [](const WearState &of, File name) { save(of, file(name)); }, arg("of"),
+      arg("file"));
    m.def(
       "load_reduced_problem", [](File name) { return load_reduced_problem(file(name)); },
       arg("file"), "Reads what save() wrote of a reduced problem.");
    m.def(
       "write_npz",
-      [](File name, nb::object of, nb::object M)
-      {
-         if (nb::hasattr(M, "toarray")) { M = M.attr("toarray")(); } // SciPy's sparse ones
-         const Eigen::MatrixXd mass = M.is_none() ? Eigen::MatrixXd() : matrix(M, "M");
-         if (nb::isinstance<Self>(of)) { write_npz(file(name), given<Self>(of, "of"), mass); }
-         else if (nb::isinstance<NodalStiffness>(of))
-         {
-            write_npz(file(name), given<NodalStiffness>(of, "of"), mass);
-         }
-         else { refuse(of, "of", "of class ReducedProblem or NodalStiffness"); }
-      },
+      [](File name, const Self &of, Sparse M) { write_npz(file(name), of, mass(M)); },
       arg("file"), arg("of"), arg("M") = nb::none(),
-      nb::sig("def write_npz(file: str | os.PathLike[str], of: ReducedProblem | "
-              "NodalStiffness, M: None | "
-              "numpy.typing.ArrayLike | scipy.sparse.sparray | scipy.sparse.spmatrix = None) "
-              "-> None"),
       "Arrays for programs of joint dynamics: K, loads and what belongs to them.");
+
+   m.def(
+      "write_npz",
+      [](File name, const NodalStiffness &of, Sparse M) { write_npz(file(name), of, mass(M)); },
+      arg("file"), arg("of"), arg("M") = nb::none());
 
    nb::class_<CriticalFriction>(m, "CriticalFriction",
                                 "Coefficients of friction at which a contact changes its "
@@ -428,6 +377,7 @@ void bind_reduced_problems(nb::module_ &m)
            [](const CriticalFriction &self)
            {
               std::ostringstream text;
+
               text << "<CriticalFriction: one answer below " << self.unique_below
                    << " (proven), node " << self.weakest_node << " alone has several above "
                    << self.node << ", locks itself above " << self.locking << ">";
@@ -435,15 +385,15 @@ void bind_reduced_problems(nb::module_ &m)
            });
    m.def(
       "critical_friction",
-      [](Of<Self> problem)
+      [](const Self &problem)
       {
-         const Self copy = given(problem, "problem");
+         const Self copy = problem;
          return unlocked([&] { return critical_friction(copy); });
       },
       arg("problem"));
    m.def(
-      "can_lock", [](Of<Self> problem) { return can_lock(given(problem, "problem")); },
-      arg("problem"), "Can the contact lock itself with the friction it has?");
+      "can_lock", [](const Self &problem) { return can_lock(problem); }, arg("problem"),
+      "Can the contact lock itself with the friction it has?");
 }
 
 } // namespace cattaneo::python

@@ -1,12 +1,17 @@
 #include "arrays.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
+#include "words.hpp"
 #include <algorithm>
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 #include <sstream>
 
@@ -18,101 +23,50 @@ namespace cattaneo::python
 namespace
 {
 
-CATTANEO_ARGUMENT(Side, "None | int | tuple[int, ContactLine]");
-
-CATTANEO_ARGUMENT(MaybePairing, "None | Pairing");
-CATTANEO_ARGUMENT(MaybePlace, "None | float | collections.abc.Callable[[float, float], float]");
-
+/// A number of a body alone is that of a half-plane, whose line is the other side's.
+using Side = std::variant<int, std::pair<int, ContactLine>>;
 /// A number, or a function of (x, y).
-ScalarField place_function(nb::handle object, const std::string &what)
+using Place = std::variant<double, nb::typed<nb::callable, double(double, double)>>;
+using Bodies = std::vector<CondensedBody>;
+
+ScalarField place_function(const Place &place, const std::string &what)
 {
-   if (PyCallable_Check(object.ptr()) == 0) { return number(object, what); }
-   return [function = nb::borrow(object), what](double x, double y)
+   if (const auto *value = std::get_if<double>(&place)) { return finite(*value, what.c_str()); }
+   return [function = std::get<1>(place), what](double x, double y)
    { return number(function(x, y), what + "(" + exact_text(x) + ", " + exact_text(y) + ")"); };
 }
 
-InterfaceSide side(nb::handle object, const std::string &what)
+InterfaceSide side(const Side &side, const char *what)
 {
-   if (object.is_none()) { return {}; }
-   if (PyIndex_Check(object.ptr()) !=
-       0) // of a half-plane, whose line is that of the other side
-   {
-      return {static_cast<int>(whole(object, what, 0, 1 << 20)), {}};
-   }
-   if (!nb::isinstance<nb::tuple>(object) || nb::len(object) != 2)
-   {
-      refuse(object, what, "(number of the body, its ContactLine)");
-   }
-   return {static_cast<int>(whole(object[0], what + "[0]", 0, 1 << 20)),
-           given<ContactLine>(nb::object(object[1]), what + "[1]")};
+   const int *alone = std::get_if<int>(&side);
+   const int body = alone ? *alone : std::get<1>(side).first;
+   within(body, what, 0, 1 << 20);
+   return {body, alone ? ContactLine() : std::get<1>(side).second};
 }
 
-std::vector<CondensedBody> body_list(nb::handle bodies, const std::string &what = "bodies")
+/// Two bodies whose nodes lie at the same places.
+Reduction reduced_pair(const CondensedBody &body, const CondensedBody &other,
+                       const Pairing *given)
 {
-   std::vector<CondensedBody> all;
-   for (const nb::object &body : sequence(bodies, what.c_str()))
+   if (given) { return reduce(body, other, *given); }
+   const Pairing pairs = pair_lines(body.line, other.line);
+   const auto knows_elements = [](const CondensedBody &of)
    {
-      all.push_back(given<CondensedBody>(body, what + "[" + std::to_string(all.size()) + "]"));
+      return std::none_of(of.line.chains.begin(), of.line.chains.end(),
+                          [](const LineChain &chain) { return chain.elements.empty(); });
+   };
+   // Places coincide. Where elements do not, nodes do not bear one to one.
+   if (differing_element(body.line, other.line, pairs) >= 0 && knows_elements(body) &&
+       knows_elements(other))
+   {
+      return reduce({body, other}, {{"contact", {0, body.line}, {1, other.line}}});
    }
-   return all;
+   return reduce(body, other, pairs);
 }
 
-std::vector<Interface> interface_list(nb::handle interfaces)
+/// Warned of what differs, and with the twist of the bodies, if there are any of it.
+Reduction completed(Reduction result, const Bodies &torsion)
 {
-   std::vector<Interface> all;
-   for (const nb::object &each : sequence(interfaces, "interfaces"))
-   {
-      all.push_back(given<Interface>(each, "interfaces[" + std::to_string(all.size()) + "]"));
-   }
-   return all;
-}
-
-Reduction reduced(nb::handle first, nb::handle second, nb::handle pairing,
-                  nb::handle half_plane)
-{
-   if (nb::isinstance<nb::list>(first) || nb::isinstance<nb::tuple>(first))
-   {
-      require(pairing.is_none(),
-              "pairing is of two bodies, of several it is said of an Interface");
-      return half_plane.is_none() ? reduce(body_list(first), interface_list(second))
-                                  : reduce(body_list(first), interface_list(second),
-                                           given<HalfPlane>(half_plane, "half_plane"));
-   }
-   require(half_plane.is_none(),
-           "half_plane is of a list of bodies; of one body it is the second argument");
-   const CondensedBody &body = given<CondensedBody>(first, "the first argument");
-   if (nb::isinstance<HalfPlane>(second))
-   {
-      return reduce(body, given<HalfPlane>(second, "second"));
-   }
-   if (nb::isinstance<CondensedBody>(second))
-   {
-      const CondensedBody &other = given<CondensedBody>(second, "second");
-      if (!pairing.is_none())
-      {
-         return reduce(body, other, given<Pairing>(pairing, "pairing"));
-      }
-      const Pairing pairs = pair_lines(body.line, other.line);
-      const auto knows_elements = [](const CondensedBody &of)
-      {
-         return std::none_of(of.line.chains.begin(), of.line.chains.end(),
-                             [](const LineChain &chain) { return chain.elements.empty(); });
-      };
-      // Places coincide. Where elements do not, nodes do not bear one to one.
-      if (differing_element(body.line, other.line, pairs) >= 0 && knows_elements(body) &&
-          knows_elements(other))
-      {
-         return reduce({body, other}, {{"contact", {0, body.line}, {1, other.line}}});
-      }
-      return reduce(body, other, pairs);
-   }
-   return reduce(body, place_function(second, "gap"));
-}
-
-Reduction with_torsion(nb::handle first, nb::handle second, nb::handle pairing,
-                       nb::handle half_plane, nb::handle torsion)
-{
-   Reduction result = reduced(first, second, pairing, half_plane);
    for (const InterfaceReport &face : result.interfaces)
    {
       if (!face.differing) { continue; }
@@ -122,18 +76,13 @@ Reduction with_torsion(nb::handle first, nb::handle second, nb::handle pairing,
            ") for instance: tractions are wrong from node to node; without a pairing nodes "
            "need not match");
    }
-   if (!torsion.is_none()) { result.add_torsion(body_list(torsion, "torsion")); }
+   if (!torsion.empty()) { result.add_torsion(torsion); }
    return result;
 }
 
-nb::list points(const std::vector<Eigen::Vector2d> &places)
+std::pair<double, double> xy(const Eigen::Vector2d &place)
 {
-   nb::list all;
-   for (const Eigen::Vector2d &place : places)
-   {
-      all.append(nb::make_tuple(place[0], place[1]));
-   }
-   return all;
+   return {place[0], place[1]};
 }
 
 } // namespace
@@ -147,11 +96,8 @@ void bind_reductions(nb::module_ &m)
       .def_prop_ro("gap", viewed(&Pairing::gap), "from geometry, positive if apart");
    m.def(
       "pair_lines",
-      [](Of<ContactLine> line1, Of<ContactLine> line2, Number tolerance)
-      {
-         return pair_lines(given(line1, "line1"), given(line2, "line2"),
-                           number(tolerance, "tolerance"));
-      },
+      [](const ContactLine &line1, const ContactLine &line2, double tolerance)
+      { return pair_lines(line1, line2, finite(tolerance, "tolerance")); },
       arg("line1"), arg("line2"), arg("tolerance") = 1e-6,
       "Pairs nodes that match; tolerance: of the offset along the tangent, in edge lengths.");
 
@@ -160,23 +106,20 @@ void bind_reductions(nb::module_ &m)
                          "parts of one body.")
       .def(
          "__init__",
-         [](Interface *self, Text name, Side first, Side second, Text slave, MaybePlace gap,
-            Number most_overlap, Flag tied, MaybePairing pairing)
+         [](Interface *self, const std::string &name, const Side &first,
+            const std::optional<Side> &second, const std::string &slave,
+            const std::optional<Place> &gap, double most_overlap, bool tied,
+            const Pairing *pairing)
          {
-            if (first.is_none())
-            {
-               refuse(first, "first", "(number of the body, its ContactLine)");
-            }
-            Interface made{
-               text(name, "name"),
-               side(first, "first"),
-               side(second, "second"),
-               chosen<SlaveSide>(slave, "slave", {"coarser", "finer", "first", "second"}),
-               std::nullopt,
-               number(most_overlap, "most_overlap"),
-               flag(tied, "tied")};
-            if (!pairing.is_none()) { made.pairing = given<Pairing>(pairing, "pairing"); }
-            if (!gap.is_none()) { made.gap = place_function(gap, "gap"); }
+            Interface made{name,
+                           side(first, "first"),
+                           second ? side(*second, "second") : InterfaceSide(),
+                           chosen<SlaveSide>(slave, "slave"),
+                           std::nullopt,
+                           finite(most_overlap, "most_overlap"),
+                           tied};
+            if (pairing) { made.pairing = *pairing; }
+            if (gap) { made.gap = place_function(*gap, "gap"); }
             new (self) Interface(std::move(made));
          },
          arg("name"), arg("first"), arg("second") = nb::none(), nb::kw_only(),
@@ -208,20 +151,14 @@ void bind_reductions(nb::module_ &m)
       .def_ro("name", &InterfaceReport::name)
       .def_prop_ro(
          "bodies",
-         [](const InterfaceReport &self)
-         { return nb::make_tuple(self.bodies[0], self.bodies[1]); },
-         nb::sig("def bodies(self) -> tuple[int, int]"),
+         [](const InterfaceReport &self) { return std::pair(self.bodies[0], self.bodies[1]); },
          "whose nodes it has, and whose face them; -1: a rigid obstacle")
       .def_ro("first", &InterfaceReport::first)
       .def_ro("nodes", &InterfaceReport::nodes)
       .def_ro("matching", &InterfaceReport::matching)
-      .def_prop_ro(
-         "free_surface", [](const InterfaceReport &self) { return points(self.free_surface); },
-         nb::sig("def free_surface(self) -> list[tuple[float, float]]"),
-         "places of nodes that nothing faces")
-      .def_prop_ro(
-         "without_row", [](const InterfaceReport &self) { return points(self.without_row); },
-         nb::sig("def without_row(self) -> list[tuple[float, float]]"))
+      .def_prop_ro("free_surface", each_of(&InterfaceReport::free_surface, &xy),
+                   "places of nodes that nothing faces")
+      .def_prop_ro("without_row", each_of(&InterfaceReport::without_row, &xy))
       .def_ro("left_out", &InterfaceReport::left_out,
               "length that is faced but that no node stands for")
       .def_ro("arm", &InterfaceReport::arm, "moment left by a normal force of 1")
@@ -232,6 +169,7 @@ void bind_reductions(nb::module_ &m)
            [](const InterfaceReport &self)
            {
               std::ostringstream text;
+
               text << "<InterfaceReport '" << self.name << "': nodes " << self.first << " to "
                    << self.first + self.nodes - 1 << (self.matching ? ", matching" : "") << ", "
                    << self.free_surface.size() << " nodes of free surface, left out "
@@ -247,48 +185,30 @@ void bind_reductions(nb::module_ &m)
          nb::rv_policy::reference_internal)
       .def_prop_ro(
          "bodies",
-         [](nb::handle_t<Self> self)
+         [](Self &self)
          {
-            nb::list all;
-            for (CondensedBody &body : given<Self>(self, "self").bodies)
-            {
-               all.append(nb::cast(body, nb::rv_policy::reference_internal, self));
-            }
-            return all;
+            return references(
+               self, self.bodies, [](CondensedBody & body) -> auto & { return body; });
          },
          nb::sig("def bodies(self) -> list[CondensedBody]"))
-      .def_prop_ro(
-         "interfaces",
-         [](const Self &self)
-         {
-            nb::list all;
-            for (const InterfaceReport &each : self.interfaces)
-            {
-               all.append(nb::cast(InterfaceReport(each)));
-            }
-            return all;
-         },
-         nb::sig("def interfaces(self) -> list[InterfaceReport]"))
+      .def_prop_ro("interfaces", [](const Self &self) { return self.interfaces; })
       .def_ro("counters", &Self::counters)
       .def(
          "displacement",
-         [](Self &self, Whole body, Of<ContactState> state)
+         [](Self &self, int body, const ContactState &state)
          {
-            const ContactState &of = given(state, "state");
-            of.validate(self.problem);
-            const long last = static_cast<long>(self.bodies.size()) - 1;
-            return array(self.displacement(static_cast<int>(whole(body, "body", 0, last)), of.v,
-                                           of.w, of.multipliers));
+            state.validate(self.problem);
+            within(body, "body", 0, static_cast<int>(self.bodies.size()) - 1);
+            return array(self.displacement(body, state.v, state.w, state.multipliers));
          },
          arg("body"), arg("state"),
          "Displacements of all rows of the stiffness of a body in a state; one solve.")
       .def(
          "tied_forces",
-         [](Self &self, Of<ContactState> state)
+         [](Self &self, const ContactState &state)
          {
-            const ContactState &of = given(state, "state");
-            of.validate(self.problem);
-            return array(self.tied_forces(of.v, of.w, of.multipliers));
+            state.validate(self.problem);
+            return array(self.tied_forces(state.v, state.w, state.multipliers));
          },
          arg("state"),
          "Nodal forces {q; p} that tied interfaces transfer, all tangential ones first, of "
@@ -296,11 +216,10 @@ void bind_reductions(nb::module_ &m)
          "nodes in the order of `interfaces`.")
       .def(
          "warnings",
-         [](const Self &self, Of<ContactState> state)
+         [](const Self &self, const ContactState &state)
          {
-            const ContactState &of = given(state, "state");
-            of.validate(self.problem);
-            return geometry_warnings(self, of.p);
+            state.validate(self.problem);
+            return geometry_warnings(self, state.p);
          },
          arg("state"),
          "Sentences about geometry that this state hangs on: normals of both bodies that "
@@ -311,52 +230,72 @@ void bind_reductions(nb::module_ &m)
          "supports hold askew. Empty: there is nothing to say.")
       .def(
          "add_obstacle_motion",
-         [](Self &self, Text name, Place ux, Place uy)
-         {
-            self.add_obstacle_motion(text(name, "name"), place_function(ux, "ux"),
-                                     place_function(uy, "uy"));
+         [](Self &self, const std::string &name, const Place &ux, const Place &uy) {
+            self.add_obstacle_motion(name, place_function(ux, "ux"), place_function(uy, "uy"));
          },
          arg("name"), arg("ux"), arg("uy"),
          "A load that moves the rigid obstacle of one body by (ux, uy) per unit multiplier, "
          "numbers or functions of (x, y).")
       .def("__repr__",
-           [](nb::handle_t<Self> self)
+           [](Self &of)
            {
-              const Self &of = given<Self>(self, "self");
               std::string names;
               for (const CondensedBody &body : of.bodies)
               {
                  if (!body.name.empty()) { names += " '" + body.name + "'"; }
               }
-              const nb::object problem = self.attr("problem");
+              const nb::object problem = nb::find(of).attr("problem");
               return "<Reduction of " + std::to_string(of.bodies.size()) +
                      (of.bodies.size() == 1 ? " body" : " bodies") + names + ": " +
                      nb::repr(problem).c_str() + ">";
            });
 
-   m.def(
-      "reduce", &with_torsion, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),
-      arg("half_plane") = nb::none(), nb::kw_only(), arg("torsion") = nb::none(),
-      nb::sig("def reduce(bodies: CondensedBody | collections.abc.Sequence[CondensedBody], "
-              "other: float | collections.abc.Callable[[float, float], float] | HalfPlane | "
-              "CondensedBody | collections.abc.Sequence[Interface] = 0.0, pairing: None | "
-              "Pairing = None, half_plane: None | HalfPlane = None, *, torsion: None | "
-              "collections.abc.Sequence[CondensedBody] = None) -> Reduction"),
-      "Condensed bodies to a reduced problem.\n\n"
-      "reduce(body, gap=0.0): on a rigid obstacle; gap, a number or a function of (x, y), says "
-      "how far it is from the body; 0.0: of the shape that the body has.\n"
-      "reduce(body, half_plane): pressed on a half-plane; the gap is the geometry's.\n"
-      "reduce(body1, body2[, pairing]): two bodies whose nodes match. Where nodes are at the "
-      "same "
-      "places but elements differ they meet as those of an interface do; a pairing that is "
-      "given "
-      "is taken and warned of (OutcomeWarning).\n"
-      "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not; with "
-      "half_plane=… on it, which is body number len(bodies), the second side of interfaces "
-      "without a line: Interface('foot', (0, line), 1).\n"
+   // Condensed bodies to a reduced problem: one function a kind of what bears on what.
+   const char *const torsion_is =
       "torsion: the axisymmetric bodies once more, in their order, condensed to the same nodes "
       "with formulation 'torsion': tangential components are then 2 a node, all radial ones "
-      "first, and q_theta are forces: a torque is the sum of r q_theta.");
+      "first, and q_theta are forces: a torque is the sum of r q_theta.";
+   m.def(
+      "reduce",
+      [](const CondensedBody &body, const Place &gap, const Bodies &torsion)
+      { return completed(reduce(body, place_function(gap, "gap")), torsion); },
+      arg("body"), arg("gap") = 0.0, nb::kw_only(), arg("torsion") = nb::tuple(),
+      "On a rigid obstacle. gap, a number or a function of (x, y), says how far it is from the "
+      "body; 0.0: of the shape that the body has.");
+   m.def(
+      "reduce",
+      [](const CondensedBody &body, const HalfPlane &half_plane, const Bodies &torsion)
+      { return completed(reduce(body, half_plane), torsion); },
+      arg("body"), arg("half_plane"), nb::kw_only(), arg("torsion") = nb::tuple(),
+      "Pressed on a half-plane; the gap is the geometry's.");
+   m.def(
+      "reduce",
+      [](const CondensedBody &body, const CondensedBody &other, const Pairing *pairing,
+         const Bodies &torsion)
+      { return completed(reduced_pair(body, other, pairing), torsion); },
+      arg("body"), arg("other"), arg("pairing") = nb::none(), nb::kw_only(),
+      arg("torsion") = nb::tuple(),
+      "Two bodies whose nodes match. Where nodes are at the same places but elements differ "
+      "they "
+      "meet as those of an interface do; a pairing that is given is taken and warned of "
+      "(OutcomeWarning).");
+   m.def(
+      "reduce",
+      [](const Bodies &bodies, const std::vector<Interface> &interfaces,
+         const HalfPlane *half_plane, const Bodies &torsion)
+      {
+         return completed(half_plane ? reduce(bodies, interfaces, *half_plane)
+                                     : reduce(bodies, interfaces),
+                          torsion);
+      },
+      arg("bodies"), arg("interfaces"), nb::kw_only(), arg("half_plane") = nb::none(),
+      arg("torsion") = nb::tuple(),
+      (std::string(
+          "Any number of bodies, nodes that match or not; with half_plane=… on it, which "
+          "is body number len(bodies), the second side of interfaces without a line: "
+          "Interface('foot', (0, line), 1).\n") +
+       torsion_is)
+         .c_str());
 
    nb::class_<SeparateBodies>(m, "SeparateBodies",
                               "Bodies that keep displacements of their own: K U + loads = "
@@ -366,22 +305,13 @@ void bind_reductions(nb::module_ &m)
          "L", [](const SeparateBodies &self) { return array(Eigen::MatrixXd(self.L)); },
          "dense")
       .def_prop_ro("loads", viewed(&SeparateBodies::loads), "a column a load")
-      .def_prop_ro(
-         "names",
-         [](const SeparateBodies &self)
-         {
-            nb::list all;
-            for (const LoadPattern &each : self.patterns) { all.append(each.name); }
-            return all;
-         },
-         nb::sig("def names(self) -> list[str]"), "of the loads");
+      .def_prop_ro("names", each_of(&SeparateBodies::patterns, &LoadPattern::name),
+                   "of the loads");
    m.def(
       "separate",
-      [](nb::object bodies, nb::object interfaces)
-      { return separate(body_list(bodies), interface_list(interfaces)); },
-      arg("bodies"), arg("interfaces"),
-      nb::sig("def separate(bodies: collections.abc.Sequence[CondensedBody], interfaces: "
-              "collections.abc.Sequence[Interface]) -> SeparateBodies"));
+      [](const Bodies &bodies, const std::vector<Interface> &interfaces)
+      { return separate(bodies, interfaces); },
+      arg("bodies"), arg("interfaces"));
 }
 
 } // namespace cattaneo::python

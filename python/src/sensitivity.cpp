@@ -2,10 +2,14 @@
 
 #include "arrays.hpp"
 #include "marches.hpp"
+#include "members.hpp"
 #include "watch.hpp"
-#include <limits>
 #include <mutex>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
 #include <sstream>
 
 // Derivatives of what a march returned.
@@ -30,32 +34,13 @@ void Trace::check(const ReducedProblem &of) const
    same("gap", of.gap, gap);
 }
 
-std::vector<StiffnessChange> stiffness_changes(nb::handle stiffness)
-{
-   std::vector<StiffnessChange> changes;
-   for (const nb::object &each : sequence(stiffness, "stiffness"))
-   {
-      changes.push_back(
-         given<StiffnessChange>(each, "stiffness[" + std::to_string(changes.size()) + "]"));
-   }
-   return changes;
-}
-
 namespace
 {
 
-CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(MaybeWhole, "None | int");
-CATTANEO_ARGUMENT(HistoryLike, "cattaneo._core.LoadHistory | "
-                               "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
-CATTANEO_ARGUMENT(MaybeWearState, "None | cattaneo._core.wear.WearState");
-CATTANEO_ARGUMENT(Ties, "collections.abc.Sequence[Tie]");
-CATTANEO_ARGUMENT(ResponseLike, "Response | float");
-CATTANEO_ARGUMENT(
-   Weights,
-   "collections.abc.Mapping[int, collections.abc.Mapping[str, numpy.typing.ArrayLike]]");
-
-constexpr long most = std::numeric_limits<int>::max();
+/// Derivatives by the entries of a state, by their names.
+using Weights = std::map<std::size_t, std::map<std::string, Numbers>>;
+/// A number depends on nothing.
+using ResponseLike = std::variant<Response, double>;
 
 /// Sensitivity with what it is of, for one thread at a time.
 struct Derivatives
@@ -95,37 +80,29 @@ constexpr std::pair<const char *, Eigen::VectorXd StateWeights::*> weight_names[
    {"loss", &StateWeights::loss},
    {"worn", &StateWeights::worn}};
 
-Response response_of(nb::handle value, nb::handle weights)
+Response response_of(double value, const Weights &weights)
 {
    Response response;
-   response.value = number(value, "value");
-   if (!nb::isinstance<nb::dict>(weights)) { refuse(weights, "weights", "a dict by states"); }
-   for (const auto &[state, parts] : nb::borrow<nb::dict>(weights))
+   response.value = finite(value, "value");
+   std::vector<std::string> names;
+   for (const auto &[each, member] : weight_names) { names.emplace_back(each); }
+   for (const auto &[state, parts] : weights)
    {
-      const long k = whole(state, "a state of weights", 0, most);
-      const std::string what = "weights[" + std::to_string(k) + "]";
-      if (!nb::isinstance<nb::dict>(parts))
-      {
-         refuse(parts, what, "a dict of arrays by names");
-      }
-      std::vector<std::string> names;
-      for (const auto &[each, member] : weight_names) { names.emplace_back(each); }
-      for (const auto &[key, values] : nb::borrow<nb::dict>(parts))
+      const std::string what = "weights[" + std::to_string(state) + "]";
+      for (const auto &[key, values] : parts)
       {
          const auto part = weight_names[choice(key, "a name in " + what, names)];
-         response.weights[k].*part.second = vector(values, what + "['" + part.first + "']");
+         response.weights[state].*part.second = vector(values, what + "['" + key + "']");
       }
    }
    return response;
 }
 
-/// A response, or a number that depends on nothing.
-Response operand(nb::handle object)
+Response operand(const ResponseLike &other)
 {
-   if (nb::isinstance<Response>(object)) { return given<Response>(object, "other"); }
-   if (nb::isinstance<nb::str>(object)) { refuse(object, "other", "a Response or a number"); }
+   if (const auto *response = std::get_if<Response>(&other)) { return *response; }
    Response constant;
-   constant.value = number(object, "other");
+   constant.value = finite(std::get<double>(other), "other");
    return constant;
 }
 
@@ -156,6 +133,7 @@ void bind_trace(nb::module_ &m)
            [](const Tie &self)
            {
               std::ostringstream text;
+
               text << "<Tie of node " << self.node << " in state " << self.state << ": "
                    << name(self.taken) << " or " << name(self.other) << ">";
               return text.str();
@@ -182,15 +160,7 @@ void bind_trace(nb::module_ &m)
       .def_prop_ro("history", [](const Self &self) { return self.trace.history; })
       .def_prop_ro(
          "states",
-         [](nb::handle_t<Self> self)
-         {
-            nb::list all;
-            for (TracedState &each : given<Self>(self, "self").trace.states)
-            {
-               all.append(nb::cast(each.state, nb::rv_policy::reference_internal, self));
-            }
-            return all;
-         },
+         [](Self &self) { return references(self, self.trace.states, &TracedState::state); },
          nb::sig("def states(self) -> list[cattaneo._core.ContactState]"),
          "the first is the one at the start")
       .def_prop_ro("point", each(&TracedState::point),
@@ -200,25 +170,25 @@ void bind_trace(nb::module_ &m)
                    "the node whose change of state decides the share; -1: the history does")
       .def_prop_ro(
          "report",
-         [](const Self &self) {
-            return march_report(self.problem, self.trace.report,
-                                self.trace.states.back().state);
+         [](const Self &self)
+         {
+            return march_report(nb::cast<const ReducedProblem &>(self.problem),
+                                self.trace.report, self.trace.states.back().state);
          },
          nb::sig("def report(self) -> cattaneo._core.MarchReport"))
       .def(
          "at",
-         [](const Self &self, Number time) { return self.trace.at(number(time, "time")); },
+         [](const Self &self, double time) { return self.trace.at(finite(time, "time")); },
          arg("time"), "Index of the last state that was reached by a time of the history.")
       .def(
          "last", [](const Self &self) { return self.trace.last(); }, "Index of the last state.")
       .def(
          "other_side",
-         [](const Self &self, Ties ties)
+         [](const Self &self, const std::vector<Tie> &ties)
          {
             Self result = self;
-            for (const nb::object &each : sequence(ties, "ties"))
+            for (const Tie &tie : ties)
             {
-               const Tie &tie = given<Tie>(each, "an entry of ties");
                auto &states = result.trace.states;
                require(tie.state < states.size() &&
                           tie.node < static_cast<Index>(states[tie.state].state.status.size()),
@@ -242,89 +212,61 @@ void bind_trace(nb::module_ &m)
            [](const Self &self)
            {
               std::ostringstream text;
+
               text << "<MarchTrace of " << self.trace.states.size()
                    << " states: " << name(self.trace.report.status) << ">";
               return text.str();
            });
-   const MarchSettings settings;
    m.def(
       "trace_march",
-      [](Of<ReducedProblem> problem, HistoryLike history, MaybeState state, Whole increments,
-         Text stepping, Flag single_increment_if_exact, Whole max_halvings,
-         Flag stop_at_steady_state, Number steady_tolerance, Text method, ProgressLike progress,
-         StopLike stop)
+      [](const ReducedProblem &problem, const History &history, const ContactState *state,
+         MarchSettings settings, const ProgressLike &progress, const StopLike &stop)
       {
-         MarchSettings with = march_settings(increments, stepping, single_increment_if_exact,
-                                             max_halvings, method);
-         with.stop_at_steady_state = flag(stop_at_steady_state, "stop_at_steady_state");
-         with.steady_tolerance = number(steady_tolerance, "steady_tolerance");
-         const ReducedProblem copy = given(problem, "problem");
+         const ReducedProblem copy = problem;
          ContactState from = state_or_rest(copy, state);
          const LoadHistory loads = history_from(copy, history, from);
          Watch watch(progress, stop);
-         with.monitor = watch.monitor();
-         Trace trace(problem.object,
-                     unlocked([&] { return trace_march(copy, loads, from, with); }));
+         settings.monitor = watch.monitor();
+         Trace trace(problem,
+                     unlocked([&] { return trace_march(copy, loads, from, settings); }));
          warn_of("trace_march", trace.trace.report);
          return trace;
       },
       arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
-      arg("increments") = settings.increments, arg("stepping") = "advancing",
-      arg("single_increment_if_exact") = settings.single_increment_if_exact,
-      arg("max_halvings") = settings.max_halvings,
-      arg("stop_at_steady_state") = settings.stop_at_steady_state,
-      arg("steady_tolerance") = settings.steady_tolerance, arg("method") = "automatic",
-      arg("progress") = false, arg("stop") = nb::none(), "march(), keeping all its states.");
-   const WearSettings wear;
+      arg("settings") = MarchSettings(), arg("progress") = false, arg("stop") = nb::none(),
+      "march(), keeping all its states.");
    m.def(
       "trace_wear",
-      [](Of<ReducedProblem> problem, Of<WearLaw> law, Of<LoadHistory> history, Number cycles,
-         MaybeWearState state, Text update, Whole increments, Text stepping,
-         Flag single_increment_if_exact, Whole max_halvings, Text method, ProgressLike progress,
-         StopLike stop)
+      [](const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
+         double cycles, const WearState *state, WearSettings settings,
+         const ProgressLike &progress, const StopLike &stop)
       {
-         WearSettings with;
-         with.march = march_settings(increments, stepping, single_increment_if_exact,
-                                     max_halvings, method);
-         with.update = chosen<GapUpdate>(update, "update", {"cycle", "piece"});
-         const ReducedProblem copy = given(problem, "problem");
-         const WearLaw by = given(law, "law");
-         const LoadHistory loads = given(history, "history");
-         const double all = number(cycles, "cycles");
-         WearState from =
-            state.is_none() ? WearState::virgin(copy) : given<WearState>(state, "state");
+         const ReducedProblem copy = problem;
+         const WearLaw by = law;
+         const LoadHistory loads = history;
+         finite(cycles, "cycles");
+         WearState from = state ? *state : WearState::virgin(copy);
          Watch watch(progress, stop);
-         with.march.monitor = watch.monitor();
-         Trace trace(problem.object,
-                     unlocked([&] { return trace_wear(copy, by, loads, all, from, with); }));
+         settings.march.monitor = watch.monitor();
+         Trace trace(
+            problem,
+            unlocked([&] { return trace_wear(copy, by, loads, cycles, from, settings); }));
          warn_of("trace_wear", trace.trace.report);
          return trace;
       },
       arg("problem"), arg("law"), arg("history"), arg("cycles"), arg("state") = nb::none(),
-      nb::kw_only(), arg("update") = "cycle", arg("increments") = wear.march.increments,
-      arg("stepping") = "advancing",
-      arg("single_increment_if_exact") = wear.march.single_increment_if_exact,
-      arg("max_halvings") = wear.march.max_halvings, arg("method") = "automatic",
-      arg("progress") = false, arg("stop") = nb::none(),
+      nb::kw_only(), arg("settings") = WearSettings(), arg("progress") = false,
+      arg("stop") = nb::none(),
       "wear.wear() with every cycle marched, keeping the states of all increments; times go on "
       "from cycle to cycle.");
    m.def(
       "ties",
-      [](Of<ReducedProblem> problem, Of<Self> trace, Number tolerance)
+      [](const ReducedProblem &problem, const Self &trace, double tolerance)
       {
-         const ReducedProblem &of = given(problem, "problem");
-         const Trace &from = given(trace, "trace");
-         from.check(of);
-         nb::list all;
-         for (const Tie &tie : ties(of, from.trace, number(tolerance, "tolerance")))
-         {
-            all.append(nb::cast(tie));
-         }
-         return all;
+         trace.check(problem);
+         return ties(problem, trace.trace, finite(tolerance, "tolerance"));
       },
       arg("problem"), arg("trace"), arg("tolerance") = 1e-9,
-      nb::sig("def ties(problem: cattaneo._core.ReducedProblem, trace: MarchTrace, tolerance: "
-              "float = 1e-09) -> list[Tie]"),
       "All ties of a trace, within `tolerance` of the largest nodal force so far.");
 }
 
@@ -340,7 +282,7 @@ void bind_responses(nb::module_ &m)
                  "trace; + - * / make others of it.")
       .def(
          "__init__",
-         [](R *self, Number value, Weights weights)
+         [](R *self, double value, const Weights &weights)
          { new (self) R(response_of(value, weights)); },
          arg("value"), arg("weights"),
          "weights: by the index of a state, derivatives by its entries: 'displacements' {v; "
@@ -380,30 +322,27 @@ void bind_responses(nb::module_ &m)
            [](const R &self)
            {
               std::ostringstream text;
+
               text << "<Response " << self.value << " of " << self.weights.size() << " states>";
               return text.str();
            });
 
    using Self = Asked;
-   const auto index = [](nb::handle value, const char *what)
-   { return static_cast<std::size_t>(whole(value, what, 0, most)); };
-   const auto of_node = [index](auto member)
+   // A number of a node or component that there is not is refused by Responses.
+   const auto of_node = [](auto member)
    {
-      return [member, index](const Self &self, Whole state, Whole node)
-      { return ((*self).*member)(index(state, "state"), whole(node, "node", 0, most)); };
+      return [member](const Self &self, std::size_t state, Index node)
+      { return ((*self).*member)(state, node); };
    };
-   const auto of_component = [index](auto member)
+   const auto of_component = [](auto member)
    {
-      return [member, index](const Self &self, Whole state, Whole node, Whole component)
-      {
-         return ((*self).*member)(index(state, "state"), whole(node, "node", 0, most),
-                                  static_cast<int>(whole(component, "component", 0, 1)));
-      };
+      return [member](const Self &self, std::size_t state, Index node, int component)
+      { return ((*self).*member)(state, node, component); };
    };
-   const auto of_pattern = [index](auto member)
+   const auto of_pattern = [](auto member)
    {
-      return [member, index](const Self &self, Whole state, Text pattern)
-      { return ((*self).*member)(index(state, "state"), text(pattern, "pattern")); };
+      return [member](const Self &self, std::size_t state, const std::string &pattern)
+      { return ((*self).*member)(state, pattern); };
    };
    const auto arms = [](nb::handle arm)
    { return arm.is_none() ? Eigen::VectorXd() : vector(arm, "arm"); };
@@ -412,33 +351,26 @@ void bind_responses(nb::module_ &m)
                     "MarchTrace.at(time) or last().")
       .def(
          "__init__",
-         [](Self *self, Of<ReducedProblem> problem, Of<Trace> trace)
-         { new (self) Self(given(problem, "problem"), trace.object); },
+         [](Self *self, const ReducedProblem &problem, const Trace &trace)
+         { new (self) Self(problem, trace); },
          arg("problem"), arg("trace"))
       .def(
          "dissipation",
-         [index](const Self &self, Whole from, Whole to, MaybeWhole node)
-         {
-            const std::size_t first = index(from, "from_"), last = index(to, "to");
-            return node.is_none()
-                      ? (*self).dissipation(first, last)
-                      : (*self).dissipation(first, last, whole(node, "node", 0, most));
+         [](const Self &self, std::size_t from, std::size_t to, std::optional<Index> node) {
+            return node ? (*self).dissipation(from, to, *node) : (*self).dissipation(from, to);
          },
          arg("from_"), arg("to"), arg("node") = nb::none(),
          "Energy that friction takes between two states, by all nodes or one.")
       .def(
          "worn_depth",
-         [index](const Self &self, Whole from, Whole to, Whole node)
-         {
-            return (*self).worn_depth(index(from, "from_"), index(to, "to"),
-                                      whole(node, "node", 0, most));
-         },
+         [](const Self &self, std::size_t from, std::size_t to, Index node)
+         { return (*self).worn_depth(from, to, node); },
          arg("from_"), arg("to"), arg("node"),
          "Depth that a node loses between two states of trace_wear().")
       .def(
          "worn_volume",
-         [index](const Self &self, Whole from, Whole to)
-         { return (*self).worn_volume(index(from, "from_"), index(to, "to")); },
+         [](const Self &self, std::size_t from, std::size_t to)
+         { return (*self).worn_volume(from, to); },
          arg("from_"), arg("to"), "Volume that all nodes lose.")
       .def("slip", of_component(&Responses::slip), arg("state"), arg("node"),
            arg("component") = 0)
@@ -452,34 +384,26 @@ void bind_responses(nb::module_ &m)
            "normal force over weight")
       .def(
          "peak_pressure",
-         [index](const Self &self, Whole state)
-         { return (*self).peak_pressure(index(state, "state")); },
+         [](const Self &self, std::size_t state) { return (*self).peak_pressure(state); },
          arg("state"), "of the node where it is largest")
       .def(
          "shear_resultant",
-         [index, arms](const Self &self, Whole state, MaybeNumbers arm, Whole component)
-         {
-            return (*self).shear_resultant(
-               index(state, "state"), arms(arm),
-               static_cast<int>(whole(component, "component", 0, 1)));
-         },
+         [arms](const Self &self, std::size_t state, Numbers arm, int component)
+         { return (*self).shear_resultant(state, arms(arm), component); },
          arg("state"), arg("arm") = nb::none(), arg("component") = 0,
          "sum of q, times a lever arm of each node")
       .def(
          "normal_resultant",
-         [index, arms](const Self &self, Whole state, MaybeNumbers arm)
-         { return (*self).normal_resultant(index(state, "state"), arms(arm)); },
+         [arms](const Self &self, std::size_t state, Numbers arm)
+         { return (*self).normal_resultant(state, arms(arm)); },
          arg("state"), arg("arm") = nb::none(), "sum of p, times a lever arm of each node")
       .def("multiplier", of_pattern(&Responses::multiplier), arg("state"), arg("pattern"))
       .def("conjugate", of_pattern(&Responses::conjugate), arg("state"), arg("pattern"),
            "of a force its displacement, of a displacement its reaction")
       .def(
          "secant_stiffness",
-         [index](const Self &self, Whole from, Whole to, Text pattern)
-         {
-            return (*self).secant_stiffness(index(from, "from_"), index(to, "to"),
-                                            text(pattern, "pattern"));
-         },
+         [](const Self &self, std::size_t from, std::size_t to, const std::string &pattern)
+         { return (*self).secant_stiffness(from, to, pattern); },
          arg("from_"), arg("to"), arg("pattern"),
          "change of force over change of displacement between two states");
 }
@@ -491,7 +415,7 @@ void bind_parameters(nb::module_ &m)
                                "linear in, a modulus for instance.")
       .def(
          "__init__",
-         [](StiffnessChange *self, Numbers K, MaybeNumbers loads, MaybeNumbers H)
+         [](StiffnessChange *self, Numbers K, Numbers loads, Numbers H)
          {
             StiffnessChange change{matrix(K, "K"), {}, {}};
             if (!loads.is_none()) { change.loads = matrix(loads, "loads"); }
@@ -504,10 +428,8 @@ void bind_parameters(nb::module_ &m)
       .def_prop_ro("K", viewed(&StiffnessChange::K))
       .def_prop_ro("loads", viewed(&StiffnessChange::loads))
       .def_prop_ro("H", viewed(&StiffnessChange::H));
-   m.def(
-      "stiffness_scale",
-      [](Of<ReducedProblem> problem) { return stiffness_scale(given(problem, "problem")); },
-      arg("problem"), "All stiffnesses by the same factor, per unit of it.");
+   m.def("stiffness_scale", &stiffness_scale, arg("problem"),
+         "All stiffnesses by the same factor, per unit of it.");
 
    using Self = Parameters;
    nb::class_<Self>(m, "Parameters",
@@ -515,8 +437,8 @@ void bind_parameters(nb::module_ &m)
                     "derivative of a response by it. No entries: no change.")
       .def(
          "__init__",
-         [](Self *self, MaybeNumbers friction, MaybeNumbers gap, MaybeNumbers multipliers,
-            MaybeNumbers stiffness, MaybeNumbers wear)
+         [](Self *self, Numbers friction, Numbers gap, Numbers multipliers, Numbers stiffness,
+            Numbers wear)
          {
             Self made;
             if (!wear.is_none()) { made.wear = vector(wear, "wear"); }
@@ -539,8 +461,7 @@ void bind_parameters(nb::module_ &m)
       .def_prop_ro("stiffness", viewed(&Self::stiffness), "of each StiffnessChange")
       .def_prop_ro("wear", viewed(&Self::wear), "of Archard's k of each node")
       .def(
-         "dot",
-         [](const Self &self, Of<Self> change) { return self.dot(given(change, "change")); },
+         "dot", [](const Self &self, const Self &change) { return self.dot(change); },
          arg("change"), "Sum of derivative times change, of whatever both have.");
 }
 
@@ -573,8 +494,7 @@ void bind_sensitivity(nb::module_ &m)
                    "of the depth that it wears off; no columns: nothing wears")
       .def(
          "of",
-         [](const TraceChange &self, Of<Response> response)
-         { return self.of(given(response, "response")); },
+         [](const TraceChange &self, const Response &response) { return self.of(response); },
          arg("response"), "Derivative of a response along the change.");
 
    using Self = Derivatives;
@@ -585,24 +505,24 @@ void bind_sensitivity(nb::module_ &m)
       "at once they are one-sided, see ties().")
       .def(
          "__init__",
-         [](Self *self, Of<ReducedProblem> problem, Of<Trace> trace, Changes stiffness)
+         [](Self *self, const ReducedProblem &problem, const Trace &trace,
+            std::vector<StiffnessChange> stiffness)
          {
-            std::vector<StiffnessChange> changes = stiffness_changes(stiffness);
+            trace.check(problem);
             Self made;
-            given(trace, "trace").check(given(problem, "problem"));
-            made.problem = std::make_unique<const ReducedProblem>(given(problem, "problem"));
-            made.trace = trace.object;
-            made.of = std::make_unique<Sensitivity>(*made.problem, given(trace, "trace").trace,
-                                                    std::move(changes));
+            made.problem = std::make_unique<const ReducedProblem>(problem);
+            made.trace = nb::find(trace);
+            made.of =
+               std::make_unique<Sensitivity>(*made.problem, trace.trace, std::move(stiffness));
             new (self) Self(std::move(made));
          },
          arg("problem"), arg("trace"), arg("stiffness") = nb::tuple(),
          "problem: as it was marched. stiffness: changes, by which there are derivatives too.")
       .def(
          "gradient",
-         [](Self &self, Of<Response> response)
+         [](Self &self, const Response &response)
          {
-            const Response of = given(response, "response");
+            const Response of = response;
             return self.watched("gradient", [&](Sensitivity &all, const Monitor &monitor)
                                 { return all.gradient(of, monitor); });
          },
@@ -611,9 +531,9 @@ void bind_sensitivity(nb::module_ &m)
          "is warned of (OutcomeWarning). Ctrl-C ends it.")
       .def(
          "along",
-         [](Self &self, Of<Parameters> change)
+         [](Self &self, const Parameters &change)
          {
-            const Parameters of = given(change, "change");
+            const Parameters of = change;
             return self.watched("along", [&](Sensitivity &all, const Monitor &monitor)
                                 { return all.along(of, monitor); });
          },

@@ -13,10 +13,8 @@ namespace cattaneo::python
 /// A trace, the problem it is of, and what of that may have been changed since.
 struct Trace
 {
-   Trace(nb::handle of, MarchTrace states)
-      : problem(nb::borrow(of)), trace(std::move(states)),
-        friction(given<ReducedProblem>(of, "problem").friction),
-        gap(given<ReducedProblem>(of, "problem").gap)
+   Trace(const ReducedProblem &of, MarchTrace states)
+      : problem(nb::find(of)), trace(std::move(states)), friction(of.friction), gap(of.gap)
    {
    }
 
@@ -33,12 +31,11 @@ struct Trace
 class Asked
 {
 public:
-   Asked(const ReducedProblem &problem, nb::handle trace)
-      : problem_(std::make_unique<const ReducedProblem>(problem)), trace_(nb::borrow(trace)),
-        own_(std::make_unique<const Responses>(*problem_, given<Trace>(trace, "trace").trace)),
-        of_(own_.get())
+   Asked(const ReducedProblem &problem, const Trace &trace)
+      : problem_(std::make_unique<const ReducedProblem>(problem)), trace_(nb::find(trace)),
+        own_(std::make_unique<const Responses>(*problem_, trace.trace)), of_(own_.get())
    {
-      given<Trace>(trace, "trace").check(problem);
+      trace.check(problem);
    }
    explicit Asked(const Responses &of) : of_(&of) {}
 
@@ -56,9 +53,6 @@ private:
    std::unique_ptr<const Responses> own_;
    const Responses *of_;
 };
-
-CATTANEO_ARGUMENT(Changes, "collections.abc.Sequence[StiffnessChange]");
-std::vector<StiffnessChange> stiffness_changes(nb::handle stiffness);
 
 void bind_sensitivity(nb::module_ &m);
 /// Derivatives of what is read out at edges of contact, and of limits.

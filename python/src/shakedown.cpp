@@ -1,4 +1,7 @@
+#include "LimitSettings.hpp"
+#include "TransientSettings.hpp"
 #include "arrays.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
 #include <cattaneo/shakedown/closed_contact.hpp>
@@ -6,7 +9,7 @@
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cattaneo/shakedown/transient.hpp>
-#include <limits>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 #include <sstream>
@@ -18,25 +21,6 @@ namespace cattaneo::python
 
 namespace
 {
-
-CATTANEO_ARGUMENT(Vertices, "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
-CATTANEO_ARGUMENT(NodeNumbers, "numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(MaybeNodeNumbers, "None | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(MaybeReport, "None | LimitReport");
-
-constexpr int most = std::numeric_limits<int>::max();
-
-LimitSettings limit_settings(nb::handle tolerance, nb::handle max_iterations,
-                             nb::handle largest_factor, nb::handle largest_friction)
-{
-   LimitSettings settings;
-   settings.tolerance = number(tolerance, "tolerance");
-   settings.max_iterations = static_cast<int>(whole(max_iterations, "max_iterations", 1, most));
-   settings.largest_factor = number(largest_factor, "largest_factor");
-   settings.largest_friction = number(largest_friction, "largest_friction");
-   settings.validate();
-   return settings;
-}
 
 void warn_of(const char *what, const LimitReport &report)
 {
@@ -51,14 +35,15 @@ void warn_of(const char *what, const LimitReport &report)
 }
 
 template <class Limit>
-LimitReport watched(const char *what, const Of<LimitProblem> &problem, LimitSettings settings,
-                    nb::handle start, nb::handle progress, nb::handle stop, Limit limit)
+LimitReport watched(const char *what, const LimitProblem &problem, LimitSettings settings,
+                    const LimitReport *start, const ProgressLike &progress,
+                    const StopLike &stop, Limit limit)
 {
-   const LimitProblem copy = given(problem, "problem");
+   const LimitProblem copy = problem;
    LimitReport from;
-   if (!start.is_none())
+   if (start)
    {
-      from = given<LimitReport>(start, "start");
+      from = *start;
       settings.start = &from;
    }
    Watch watch(progress, stop);
@@ -82,17 +67,11 @@ void bind_cycle(nb::module_ &m)
                          "A polygonal load cycle: constant + factor × varying at each vertex.")
       .def_static(
          "through",
-         [](Of<ReducedProblem> problem, Loads constant, Vertices vertices)
+         [](const ReducedProblem &problem, const NamedLoads &constant,
+            const std::vector<NamedLoads> &vertices)
          {
-            std::vector<NamedLoads> all;
-            for (const nb::object &vertex : sequence(vertices, "vertices"))
-            {
-               all.push_back(
-                  named_loads(vertex, "vertices[" + std::to_string(all.size()) + "]"));
-            }
-            require(!all.empty(), "vertices has no entries, must have one at least");
-            return LoadCycle::through(given(problem, "problem"),
-                                      named_loads(constant, "constant"), all);
+            require(!vertices.empty(), "vertices has no entries, must have one at least");
+            return LoadCycle::through(problem, constant, vertices);
          },
          arg("problem"), arg("constant"), arg("vertices"),
          "through(problem, {'P': 1}, [{'Q': 1}, {'Q': -1}]) holds P and cycles Q to and fro.")
@@ -102,11 +81,11 @@ void bind_cycle(nb::module_ &m)
            { return "<LoadCycle of " + std::to_string(self.vertices()) + " vertices>"; });
    m.def(
       "held_and_cycled",
-      [](Of<ReducedProblem> problem, Text held, Number load, Text cycled, Number reversal)
+      [](const ReducedProblem &problem, const std::string &held, double load,
+         const std::string &cycled, double reversal)
       {
-         return held_and_cycled(given(problem, "problem"), text(held, "held"),
-                                number(load, "load"), text(cycled, "cycled"),
-                                number(reversal, "reversal"));
+         return held_and_cycled(problem, held, finite(load, "load"), cycled,
+                                finite(reversal, "reversal"));
       },
       arg("problem"), arg("held"), arg("load"), arg("cycled"), arg("reversal"),
       "One load held, another cycled between factor and reversal × factor.");
@@ -121,21 +100,19 @@ void bind_limits(nb::module_ &m)
       .def_ro("coupling", &LimitProblem::coupling, "degree of coupling, 0 to 1")
       .def_prop_rw(
          "cycle", [](const LimitProblem &self) { return self.cycle; },
-         [](LimitProblem &self, Of<LoadCycle> cycle)
+         [](LimitProblem &self, const LoadCycle &cycle)
          {
-            const LoadCycle &other = given(cycle, "cycle");
-            other.validate(self.reduced);
-            self.cycle = other;
+            cycle.validate(self.reduced);
+            self.cycle = cycle;
          },
          nb::for_setter(arg("cycle")), "may be changed for a sweep");
    m.def(
       "limit_problem",
-      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle)
+      [](const ReducedProblem &problem, const LoadCycle &cycle)
       {
-         ReducedProblem of = given(problem, "problem");
-         const LoadCycle &loads = given(cycle, "cycle");
-         loads.validate(of);
-         return unlocked([&] { return limit_problem(std::move(of), LoadCycle(loads)); });
+         cycle.validate(problem);
+         return unlocked([of = problem, loads = cycle]() mutable
+                         { return limit_problem(std::move(of), std::move(loads)); });
       },
       arg("problem"), arg("cycle"),
       "The expensive part of a limit, once for a sweep over friction or cycles.");
@@ -182,6 +159,7 @@ void bind_limits(nb::module_ &m)
            [](const Self &self)
            {
               std::ostringstream text;
+
               text.precision(9);
               text << "<LimitReport: " << name(self.status);
               if (self.proven())
@@ -200,46 +178,35 @@ void bind_limits(nb::module_ &m)
            });
 
    const LimitSettings settings;
+   LimitSettings told; // unless they are given
+   told.every_start = true;
    m.def(
       "load_limit",
-      [](Of<LimitProblem> problem, Number tolerance, Whole max_iterations,
-         Number largest_factor, Flag every_start, MaybeReport start, ProgressLike progress,
-         StopLike stop)
+      [](const LimitProblem &problem, const LimitSettings &settings, const LimitReport *start,
+         const ProgressLike &progress, const StopLike &stop)
       {
-         const nb::object friction = nb::cast(LimitSettings().largest_friction);
-         LimitSettings with =
-            limit_settings(tolerance, max_iterations, largest_factor, friction);
-         with.every_start = flag(every_start, "every_start");
-         return watched("load_limit", problem, with, start, progress, stop,
+         return watched("load_limit", problem, settings, start, progress, stop,
                         [](const LimitProblem &of, const LimitSettings &with)
                         { return load_limit(of, with); });
       },
-      arg("problem"), nb::kw_only(), arg("tolerance") = settings.tolerance,
-      arg("max_iterations") = settings.max_iterations,
-      arg("largest_factor") = settings.largest_factor, arg("every_start") = true,
-      arg("start") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
+      arg("problem"), nb::kw_only(), arg("settings") = told, arg("start") = nb::none(),
+      arg("progress") = false, arg("stop") = nb::none(),
       "The largest load factor under which some slip keeps all nodes stuck and closed, for the "
-      "friction of the problem. every_start: of a coupled contact λ1 is asked for too, below "
-      "which every start shakes down, one more programme. start: an earlier report of a "
-      "sweep.");
+      "friction of the problem. settings: those that are given say whether, of a coupled "
+      "contact, λ1 is asked for too, below which every start shakes down. start: an earlier "
+      "report of a sweep.");
    m.def(
       "friction_limit",
-      [](Of<LimitProblem> problem, Number load_factor, Number tolerance, Whole max_iterations,
-         Number largest_friction, MaybeReport start, ProgressLike progress, StopLike stop)
+      [](const LimitProblem &problem, double load_factor, const LimitSettings &settings,
+         const LimitReport *start, const ProgressLike &progress, const StopLike &stop)
       {
-         const double factor = number(load_factor, "load_factor");
-         const nb::object most_factor = nb::cast(LimitSettings().largest_factor);
-         return watched(
-            "friction_limit", problem,
-            limit_settings(tolerance, max_iterations, most_factor, largest_friction), start,
-            progress, stop,
-            [factor](const LimitProblem &of, const LimitSettings &with)
-            { return friction_limit(of, factor, with); });
+         const double factor = finite(load_factor, "load_factor");
+         return watched("friction_limit", problem, settings, start, progress, stop,
+                        [factor](const LimitProblem &of, const LimitSettings &with)
+                        { return friction_limit(of, factor, with); });
       },
-      arg("problem"), arg("load_factor"), nb::kw_only(), arg("tolerance") = settings.tolerance,
-      arg("max_iterations") = settings.max_iterations,
-      arg("largest_friction") = settings.largest_friction, arg("start") = nb::none(),
-      arg("progress") = false, arg("stop") = nb::none(),
+      arg("problem"), arg("load_factor"), nb::kw_only(), arg("settings") = settings,
+      arg("start") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
       "The smallest coefficient, the same at all nodes, at which the contact shakes down.");
 
    nb::class_<LowerLimitReport>(
@@ -258,15 +225,16 @@ void bind_limits(nb::module_ &m)
            { return "<LowerLimitReport: " + self.message + ">"; });
    m.def(
       "lower_limit",
-      [](Of<LimitProblem> problem, Of<LimitReport> upper, MaybeNodeNumbers apart)
+      [](const LimitProblem &problem, const LimitReport &upper, Numbers apart,
+         LimitSettings settings)
       {
-         const LimitProblem copy = given(problem, "problem");
-         const LimitReport limit = given(upper, "upper");
          const NodeList nodes =
-            apart.is_none() ? NodeList() : node_list(copy.reduced, apart, "apart");
-         return one_at_a_time([&] { return lower_limit(copy, limit, {}, nodes); });
+            apart.is_none() ? NodeList() : node_list(problem.reduced, apart, "apart");
+         return one_at_a_time([&, copy = problem, limit = upper]
+                              { return lower_limit(copy, limit, settings, nodes); });
       },
       arg("problem"), arg("upper"), nb::kw_only(), arg("apart") = nb::none(),
+      arg("settings") = settings,
       "upper: the report of load_limit. apart: nodes without which slip cannot go on for ever "
       "below the value, if the contact stays closed.");
 }
@@ -285,31 +253,28 @@ void bind_closed(nb::module_ &m)
                    [](const ClosedContact &self) { return array_of_indices(self.open); })
       .def(
          "open_gaps",
-         [](const ClosedContact &self, Numbers slip, Loads loads)
+         [](const ClosedContact &self, Numbers slip, const NamedLoads &loads)
          {
             return array(self.open_gaps(vector(slip, "slip", self.reduced.slips()),
-                                        self.reduced.multipliers(named_loads(loads, "loads"))));
+                                        self.reduced.multipliers(loads)));
          },
          arg("slip"), arg("loads"), "of the open nodes: negative where the assumption fails");
    m.def(
       "closed_contact",
-      [](Of<ReducedProblem> problem, NodeNumbers nodes)
-      {
-         const ReducedProblem &of = given(problem, "problem");
-         return closed_contact(of, node_list(of, nodes));
-      },
+      [](const ReducedProblem &problem, Numbers nodes)
+      { return closed_contact(problem, node_list(problem, nodes)); },
       arg("problem"), arg("nodes"));
    m.def(
       "stay_closed",
-      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle, Number load_factor, Whole cycles)
+      [](const ReducedProblem &problem, const LoadCycle &cycle, double load_factor, int cycles)
       {
-         const ReducedProblem copy = given(problem, "problem");
-         const LoadCycle loads = given(cycle, "cycle");
-         const double factor = number(load_factor, "load_factor");
-         const int count = static_cast<int>(whole(cycles, "cycles", 1, 1 << 20));
+         const ReducedProblem copy = problem;
+         const LoadCycle loads = cycle;
+         const double factor = finite(load_factor, "load_factor");
+         require_at_least("stay_closed: cycles", cycles, 1);
          Watch watch(nb::bool_(false), nb::none());
          const StayedClosed result =
-            unlocked([&] { return stay_closed(copy, loads, factor, count, watch.monitor()); });
+            unlocked([&] { return stay_closed(copy, loads, factor, cycles, watch.monitor()); });
          if (result.march.status != FrictionStatus::converged)
          {
             warn(std::string("stay_closed: the march ended with ") + name(result.march.status) +
@@ -336,21 +301,18 @@ void bind_estimates(nb::module_ &m)
            });
    m.def(
       "method1_friction",
-      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle, Number load_factor)
-      {
-         return method1_friction(given(problem, "problem"), given(cycle, "cycle"),
-                                 number(load_factor, "load_factor"));
-      },
+      [](const ReducedProblem &problem, const LoadCycle &cycle, double load_factor)
+      { return method1_friction(problem, cycle, finite(load_factor, "load_factor")); },
       arg("problem"), arg("cycle"), arg("load_factor"));
    m.def(
       "method1_load",
-      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle)
-      { return method1_load(given(problem, "problem"), given(cycle, "cycle")); },
+      [](const ReducedProblem &problem, const LoadCycle &cycle)
+      { return method1_load(problem, cycle); },
       arg("problem"), arg("cycle"));
    m.def(
       "degree_of_coupling",
-      [](Of<ReducedProblem> problem) { return degree_of_coupling(given(problem, "problem")); },
-      arg("problem"), "0 to 1; for two half-planes Dundurs' constant.");
+      [](const ReducedProblem &problem) { return degree_of_coupling(problem); }, arg("problem"),
+      "0 to 1; for two half-planes Dundurs' constant.");
 
    nb::class_<TransientReport>(m, "TransientReport",
                                "A march of a load cycle from a given slip.")
@@ -379,39 +341,34 @@ void bind_estimates(nb::module_ &m)
            [](const TransientReport &self)
            {
               std::ostringstream text;
+
               text << "<TransientReport: load factor " << self.load_factor << ", "
                    << name(self.verdict) << " after " << self.dissipation.size() << " cycles>";
               return text.str();
            });
    m.def(
       "transient",
-      [](Of<LimitProblem> problem, Number load_factor, Numbers start, Whole cycles,
-         MaybeReport limit)
+      [](const LimitProblem &problem, double load_factor, Numbers start,
+         const LimitReport *limit, TransientSettings settings)
       {
-         const LimitProblem copy = given(problem, "problem");
-         const double factor = number(load_factor, "load_factor");
-         const Eigen::VectorXd slip =
-            integer(nb::module_::import_("numpy").attr("ndim")(start)) == 0
-               ? vector_or_number(start, "start", copy.reduced.slips())
-               : vector(start, "start", copy.reduced.slips());
-         TransientSettings settings;
-         settings.cycles = static_cast<int>(whole(cycles, "cycles", 1, 1 << 24));
-         if (!limit.is_none())
+         const LimitProblem copy = problem;
+         const double factor = finite(load_factor, "load_factor");
+         const Eigen::VectorXd slip = vector_or_number(start, "start", copy.reduced.slips());
+         if (limit && limit->proven())
          {
-            const LimitReport &known = given<LimitReport>(limit, "limit");
-            if (known.proven()) { settings.upper = known.upper; }
+            settings.upper = std::min(settings.upper, limit->upper);
          }
          Watch watch(nb::bool_(false), nb::none());
          settings.march.monitor = watch.monitor();
          return unlocked(
             [&]
             {
-               FrictionSolver solver(copy.reduced);
+               FrictionSolver solver(copy.reduced, settings.march.friction);
                return transient(solver, copy, factor, slip, settings);
             });
       },
-      arg("problem"), arg("load_factor"), arg("start") = 0.0,
-      arg("cycles") = TransientSettings().cycles, arg("limit") = nb::none(),
+      arg("problem"), arg("load_factor"), arg("start") = 0.0, arg("limit") = nb::none(),
+      nb::kw_only(), arg("settings") = TransientSettings(),
       "Marches the cycle from the slip `start`: does it shake down, and how fast? limit: the "
       "report of load_limit. Above its upper bound, if that is proven, the verdict is never "
       "'shaken down': a slip that seems to have ended 'moves only at nodes that open' if nodes "
@@ -423,6 +380,8 @@ void bind_estimates(nb::module_ &m)
 void bind_shakedown(nb::module_ &m)
 {
    nb::module_ shakedown = m.def_submodule("shakedown", "Shakedown limits and bounds.");
+   bind_settings<LimitSettings>(shakedown);
+   bind_settings<TransientSettings>(shakedown);
    bind_cycle(shakedown);
    bind_limits(shakedown);
    bind_closed(shakedown);

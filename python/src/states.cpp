@@ -35,18 +35,11 @@ void bind_states(nb::module_ &m)
                           "views that cannot be written to.");
    bind_validate(state);
    bind_copies(state);
-   state
-      .def_static(
-         "virgin",
-         [](Of<ReducedProblem> problem) { return Self::virgin(given(problem, "problem")); },
-         arg("problem"), "Before any load.")
+   state.def_static("virgin", &Self::virgin, arg("problem"), "Before any load.")
       .def_static(
          "with_slip",
-         [](Of<ReducedProblem> problem, Numbers v)
-         {
-            const ReducedProblem &of = given(problem, "problem");
-            return Self::with_slip(of, vector(v, "v", of.slips()));
-         },
+         [](const ReducedProblem &problem, Numbers v)
+         { return Self::with_slip(problem, vector(v, "v", problem.slips())); },
          arg("problem"), arg("v"), "Virgin but for a given slip.")
       .def_prop_ro("v", viewed(&Self::v), "slip, size c n")
       .def_prop_ro("w", viewed(&Self::w), "opening, size n")
@@ -64,6 +57,7 @@ void bind_states(nb::module_ &m)
            [](const Self &self)
            {
               std::ostringstream text;
+
               text << "<ContactState at time " << self.time << ": normal force " << self.p.sum()
                    << ", tangential force " << self.q.sum() << ", dissipation "
                    << self.dissipation << ", " << self.p.size() << " nodes>";
@@ -74,12 +68,10 @@ void bind_states(nb::module_ &m)
       arg("file"), "Reads what save() wrote of a state.");
    m.def(
       "settled_states",
-      [](Of<ReducedProblem> problem, Of<Self> state)
+      [](const ReducedProblem &problem, const Self &state)
       {
-         const ReducedProblem &of = given(problem, "problem");
-         const Self &at = given(state, "state");
-         at.validate(of);
-         return state_numbers(settled_states(of, at));
+         state.validate(problem);
+         return state_numbers(settled_states(problem, state));
       },
       arg("problem"), arg("state"),
       "NodeState of each node as mechanics decides it, whatever round-off made of ties.");

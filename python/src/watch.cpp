@@ -8,9 +8,9 @@ Watch::Watch(nb::handle progress, nb::handle stop)
 {
    if (nb::isinstance<nb::bool_>(progress))
    {
-      const bool shown = flag(progress, "progress");
-      progress_ =
-         shown ? nb::module_::import_("cattaneo._progress").attr("Line")() : nb::none();
+      progress_ = nb::cast<bool>(progress)
+                     ? nb::module_::import_("cattaneo._progress").attr("Line")()
+                     : nb::none();
    }
    else if (PyCallable_Check(progress.ptr()) == 0)
    {

@@ -8,8 +8,9 @@ namespace cattaneo::python
 {
 
 CATTANEO_ARGUMENT(ProgressLike,
-                  "bool | collections.abc.Callable[[cattaneo._core.Progress], object]");
-CATTANEO_ARGUMENT(StopLike, "None | threading.Event");
+                  "bool | collections.abc.Callable[[cattaneo._core.Progress], object]",
+                  anything);
+CATTANEO_ARGUMENT(StopLike, "threading.Event", anything);
 
 /** Long work without the interpreter's lock, which Ctrl-C ends with KeyboardInterrupt, and
     which is stopped from elsewhere by an object with is_set(), as threading.Event: its status

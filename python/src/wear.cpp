@@ -1,9 +1,9 @@
+#include "WearSettings.hpp"
 #include "arrays.hpp"
 #include "marches.hpp"
 #include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
-#include <cattaneo/wear/wear_march.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 #include <nanobind/stl/string.h>
 #include <sstream>
@@ -16,10 +16,8 @@ namespace cattaneo::python
 namespace
 {
 
-CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
-CATTANEO_ARGUMENT(MaybeWearState, "None | WearState");
-CATTANEO_ARGUMENT(Observer, "None | collections.abc.Callable[[WearState, WearRecord], object]");
-CATTANEO_ARGUMENT(Truths, "numpy.typing.NDArray[numpy.bool_]");
+using Observer = std::optional<nb::typed<nb::callable, nb::object(WearState, WearRecord)>>;
+CATTANEO_ARGUMENT(Truths, "numpy.typing.NDArray[numpy.bool_]", anything);
 
 Truths truths(const std::vector<bool> &values)
 {
@@ -52,9 +50,9 @@ void bind_law(nb::module_ &m)
    bind_validate(law);
    law.def(
          "__init__",
-         [](Self *self, Numbers coefficient, MaybeNumbers threshold, Flag of_energy)
+         [](Self *self, Numbers coefficient, Numbers threshold, bool of_energy)
          {
-            Self law{vector(coefficient, "coefficient"), {}, flag(of_energy, "of_energy")};
+            Self law{vector(coefficient, "coefficient"), {}, of_energy};
             if (!threshold.is_none())
             {
                law.threshold = vector_or_number(threshold, "threshold", law.coefficient.size());
@@ -67,17 +65,14 @@ void bind_law(nb::module_ &m)
          "friction takes per area.")
       .def_static(
          "uniform",
-         [](Of<ReducedProblem> problem, Number coefficient) {
-            return Self::uniform(given(problem, "problem"), number(coefficient, "coefficient"));
-         },
+         [](const ReducedProblem &problem, double coefficient)
+         { return Self::uniform(problem, finite(coefficient, "coefficient")); },
          arg("problem"), arg("coefficient"), "The same k at every node, no threshold.")
       .def(
          "set",
-         [](Self &self, Of<ReducedProblem> problem, Text interface, Number coefficient)
-         {
-            self.set(given(problem, "problem"), text(interface, "interface"),
-                     number(coefficient, "coefficient"));
-         },
+         [](Self &self, const ReducedProblem &problem, const std::string &interface,
+            double coefficient)
+         { self.set(problem, interface, finite(coefficient, "coefficient")); },
          arg("problem"), arg("interface"), arg("coefficient"),
          "Another k at the nodes of an interface.")
       .def_prop_ro("coefficient", viewed(&Self::coefficient), "k of each node")
@@ -87,6 +82,7 @@ void bind_law(nb::module_ &m)
            [](const Self &self)
            {
               std::ostringstream text;
+
               text << "<WearLaw: k of " << self.coefficient.size() << " nodes";
               if (self.coefficient.size() > 0)
               {
@@ -99,26 +95,20 @@ void bind_law(nb::module_ &m)
            });
    m.def(
       "worn_depth",
-      [](Of<ReducedProblem> problem, Of<Self> law, Of<ContactState> before,
-         Of<ContactState> after)
+      [](const ReducedProblem &problem, const Self &law, const ContactState &before,
+         const ContactState &after)
       {
-         const ReducedProblem &of = given(problem, "problem");
-         const Self &by = given(law, "law");
-         const ContactState &from = given(before, "before"), &to = given(after, "after");
-         by.validate(of);
-         from.validate(of);
-         to.validate(of);
-         return array(worn_depth(of, by, from, to));
+         law.validate(problem);
+         before.validate(problem);
+         after.validate(problem);
+         return array(worn_depth(problem, law, before, after));
       },
       arg("problem"), arg("law"), arg("before"), arg("after"),
       "Depth that each node loses over an increment between two states.");
    m.def(
       "worn_volume",
-      [](Of<ReducedProblem> problem, Numbers depth)
-      {
-         const ReducedProblem &of = given(problem, "problem");
-         return worn_volume(of, vector(depth, "depth", of.nodes()));
-      },
+      [](const ReducedProblem &problem, Numbers depth)
+      { return worn_volume(problem, vector(depth, "depth", problem.nodes())); },
       arg("problem"), arg("depth"),
       "Volume of a depth of each node, per unit thickness; of the full circumference in "
       "axisymmetry.");
@@ -135,23 +125,19 @@ void bind_state(nb::module_ &m)
    state
       .def(
          "__init__",
-         [](Self *self, Of<ContactState> contact, Numbers depth, Numbers dissipation,
-            Number cycles)
+         [](Self *self, const ContactState &contact, Numbers depth, Numbers dissipation,
+            double cycles)
          {
-            const ContactState &at = given(contact, "contact");
-            const Index n = at.p.size();
-            Self state{at, vector_or_number(depth, "depth", n),
+            const Index n = contact.p.size();
+            Self state{contact, vector_or_number(depth, "depth", n),
                        vector_or_number(dissipation, "dissipation", n),
-                       number(cycles, "cycles")};
+                       finite(cycles, "cycles")};
             new (self) Self(std::move(state));
          },
          arg("contact"), arg("depth"), arg("dissipation") = 0.0, arg("cycles") = 0.0,
          "depth: worn off so far, and dissipation: energy that friction took so far, of each "
          "node or one number.")
-      .def_static(
-         "virgin",
-         [](Of<ReducedProblem> problem) { return Self::virgin(given(problem, "problem")); },
-         arg("problem"), "Unworn, before any load.")
+      .def_static("virgin", &Self::virgin, arg("problem"), "Unworn, before any load.")
       .def_prop_ro(
          "contact", [](Self &self) -> ContactState & { return self.contact; },
          nb::rv_policy::reference_internal,
@@ -164,6 +150,7 @@ void bind_state(nb::module_ &m)
            [](const Self &self)
            {
               std::ostringstream text;
+
               text << "<WearState after " << self.cycles << " cycles: largest depth "
                    << (self.depth.size() > 0 ? self.depth.maxCoeff() : 0.0) << " of "
                    << self.depth.size() << " nodes, dissipation " << self.dissipation.sum()
@@ -222,6 +209,7 @@ void bind_report(nb::module_ &m)
            [](const WearRecord &self)
            {
               std::ostringstream text;
+
               text << "<WearRecord at cycle " << self.cycles << ": largest depth " << self.depth
                    << ", volume " << self.volume << ", loss of a cycle " << self.loss << ">";
               return text.str();
@@ -262,60 +250,58 @@ void bind_report(nb::module_ &m)
       .def_prop_ro(
          "last",
          [](const Self &self)
-         { return march_report(self.problem, self.report.last, self.state.contact); },
+         {
+            return march_report(nb::cast<const ReducedProblem &>(self.problem),
+                                self.report.last, self.state.contact);
+         },
          nb::sig("def last(self) -> cattaneo._core.MarchReport"), "of the last cycle marched")
+      .def_prop_ro("marched", copied(&Self::report, &WearReport::marched),
+                   "cycles, also those that only look where a jump leads")
+      .def_prop_ro("jumps", copied(&Self::report, &WearReport::jumps))
       .def_prop_ro(
-         "marched", [](const Self &self) { return self.report.marched; },
-         "cycles, also those that only look where a jump leads")
-      .def_prop_ro("jumps", [](const Self &self) { return self.report.jumps; })
-      .def_prop_ro(
-         "error", [](const Self &self) { return self.report.error; },
+         "error", copied(&Self::report, &WearReport::error),
          "estimate of the largest error of depth at the end that comes of jumps, with all that "
          "grew on the way; infinite where the way is too unstable for an estimate")
+      .def_prop_ro("reached", copied(&Self::report, &WearReport::reached),
+                   "True if depths are estimated to be right to the tolerance")
       .def_prop_ro(
-         "reached", [](const Self &self) { return self.report.reached; },
-         "True if depths are estimated to be right to the tolerance")
-      .def_prop_ro(
-         "remark", [](const Self &self) { return self.report.remark; },
+         "remark", copied(&Self::report, &WearReport::remark),
          "what a warning says too: where errors of jumps grew on the way, and where no "
          "equilibrium "
          "was found at the worn gap; else empty")
-      .def_prop_ro(
-         "explicit_limit", [](const Self &self) { return self.report.explicit_limit; },
-         "most cycles that may share one explicit update of the gap")
-      .def_prop_ro("implicit_cycles",
-                   [](const Self &self) { return self.report.implicit_cycles; })
-      .def_prop_ro(
-         "steady_cycle", [](const Self &self) { return self.report.steady_cycle; },
-         "from which each cycle wears as the next does; 0: none")
-      .def_prop_ro(
-         "final_cycle", [](const Self &self) { return self.report.final_cycle; },
-         "at which wear had come to its end; 0: it has not")
-      .def_prop_ro("counters", [](const Self &self) { return self.report.counters; })
-      .def_prop_ro("seconds", [](const Self &self) { return self.report.seconds; })
+      .def_prop_ro("explicit_limit", copied(&Self::report, &WearReport::explicit_limit),
+                   "most cycles that may share one explicit update of the gap")
+      .def_prop_ro("implicit_cycles", copied(&Self::report, &WearReport::implicit_cycles))
+      .def_prop_ro("steady_cycle", copied(&Self::report, &WearReport::steady_cycle),
+                   "from which each cycle wears as the next does; 0: none")
+      .def_prop_ro("final_cycle", copied(&Self::report, &WearReport::final_cycle),
+                   "at which wear had come to its end; 0: it has not")
+      .def_prop_ro("counters", copied(&Self::report, &WearReport::counters))
+      .def_prop_ro("seconds", copied(&Self::report, &WearReport::seconds))
       .def("__repr__", &brief);
 }
 
-Wear worn(nb::handle problem, const WearLaw &law, const LoadHistory &history, double cycles,
-          nb::handle state, WearSettings settings, nb::handle observer, nb::handle progress,
-          nb::handle stop)
+Wear worn(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
+          double cycles, const WearState *state, WearSettings settings,
+          const Observer &observer, const ProgressLike &progress, const StopLike &stop)
 {
-   const ReducedProblem copy = given<ReducedProblem>(problem, "problem");
-   Wear result{nb::borrow(problem), {}, {}};
-   result.state = state.is_none() ? WearState::virgin(copy) : given<WearState>(state, "state");
-   require_observer(observer);
+   const ReducedProblem copy = problem;
+   const WearLaw by = law;
+   const LoadHistory loads = history;
+   finite(cycles, "cycles");
+   Wear result{nb::find(problem), {}, state ? *state : WearState::virgin(copy)};
    Watch watch(progress, stop);
    settings.march.monitor = watch.monitor();
    const WearObserver call = [&](const WearState &now, const WearRecord &record)
    {
       const nb::gil_scoped_acquire lock;
-      observer(nb::cast(WearState(now)), nb::cast(WearRecord(record)));
+      (*observer)(nb::cast(WearState(now)), nb::cast(WearRecord(record)));
    };
    result.report = unlocked(
       [&]
       {
-         return wear(copy, law, history, cycles, result.state, settings,
-                     observer.is_none() ? WearObserver() : call);
+         return wear(copy, by, loads, cycles, result.state, settings,
+                     observer ? call : WearObserver());
       });
    const WearReport &report = result.report;
    warn_of_status("wear", report.status,
@@ -327,62 +313,29 @@ Wear worn(nb::handle problem, const WearLaw &law, const LoadHistory &history, do
 
 void bind_wear_march(nb::module_ &m)
 {
-   const WearSettings settings;
-   const MarchSettings &march = settings.march;
    m.def(
-      "wear",
-      [](Of<ReducedProblem> problem, Of<WearLaw> law, Of<LoadHistory> history, Number cycles,
-         MaybeWearState state, Text update, Number tolerance, Number final_share,
-         Number steady_tolerance, Whole increments, Text stepping,
-         Flag single_increment_if_exact, Whole max_halvings, Text method, Observer observer,
-         ProgressLike progress, StopLike stop)
-      {
-         WearSettings with;
-         with.march = march_settings(increments, stepping, single_increment_if_exact,
-                                     max_halvings, method);
-         with.update = chosen<GapUpdate>(update, "update", {"cycle", "piece"});
-         with.tolerance = number(tolerance, "tolerance");
-         with.final_share = number(final_share, "final_share");
-         with.steady_tolerance = number(steady_tolerance, "steady_tolerance");
-         const WearLaw by = given(law, "law");
-         const LoadHistory loads = given(history, "history");
-         return worn(problem.object, by, loads, number(cycles, "cycles"), state, with, observer,
-                     progress, stop);
-      },
-      arg("problem"), arg("law"), arg("history"), arg("cycles"), arg("state") = nb::none(),
-      nb::kw_only(), arg("update") = "cycle", arg("tolerance") = settings.tolerance,
-      arg("final_share") = settings.final_share,
-      arg("steady_tolerance") = settings.steady_tolerance, arg("increments") = march.increments,
-      arg("stepping") = "advancing",
-      arg("single_increment_if_exact") = march.single_increment_if_exact,
-      arg("max_halvings") = march.max_halvings, arg("method") = "automatic",
+      "wear", &worn, arg("problem"), arg("law"), arg("history"), arg("cycles"),
+      arg("state") = nb::none(), nb::kw_only(), arg("settings") = WearSettings(),
       arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
       "Wears a contact: marches the opening part of a history, then its cycle until `cycles` "
       "are over, and takes off what each cycle wears. `state` stays as it is.\n\n"
       "history: with a cycle (cycle_start); how often it repeats is not asked.\n"
-      "tolerance: cycles are jumped over where depths are estimated to differ by no more than "
-      "this share of the largest from those of all cycles marched, 1e-8 to 0.1; 0: every cycle "
-      "is marched, as with update 'piece'. The same increments and stepping are meant: an "
-      "unstable way ends elsewhere "
-      "with others. Where the tolerance was not reached `reached` is False; of that and of any "
-      "other remark a warning says so. final_share: ends where a cycle adds less than this "
-      "share of the largest depth. update: the gap follows at the end of each 'cycle' or "
-      "'piece' of it. increments, stepping, …: of each march, as in march().\n"
+      "settings: with a tolerance cycles are jumped over. The same increments and stepping are "
+      "meant: an unstable way ends elsewhere with others. Where the tolerance was not reached "
+      "`reached` is False; of that and of any other remark a warning says so.\n"
       "observer: is called with WearState and WearRecord after every cycle marched and every "
       "jump, of jumps when their error is known.\n\n"
       "Ctrl-C, `stop` and `progress` are asked between cycles. An outcome other than "
       "'converged' is warned of (OutcomeWarning).");
 
    using Self = Worn;
-   const auto of_end = [](auto member)
-   { return [member](const Self &self) { return array(self.end.*member); }; };
    nb::class_<Self> end(
       m, "WornOut",
       "A state in which a cycle wears off nothing more. A march may come to another one where "
       "nodes stick that it finds worn.");
    bind_outcome(end, [](const Self &self) -> const WornOut & { return self.end; });
-   end.def_prop_ro("depth", of_end(&WornOut::depth), "worn off at each node")
-      .def_prop_ro("overlap", of_end(&WornOut::overlap),
+   end.def_prop_ro("depth", copied(&Self::end, &WornOut::depth), "worn off at each node")
+      .def_prop_ro("overlap", copied(&Self::end, &WornOut::overlap),
                    "how far the surfaces would overlap unworn; crosses zero where wear ends")
       .def_prop_ro(
          "stick", [](const Self &self) { return truths(self.end.stick); },
@@ -396,12 +349,10 @@ void bind_wear_march(nb::module_ &m)
       .def_prop_ro(
          "slip_range", [](const Self &self) { return array(self.slip_range); },
          "of each node over the unworn cycle: largest - smallest slip")
-      .def_prop_ro(
-         "loss", [](const Self &self) { return self.end.loss; },
-         "energy of a cycle, over that of the unworn contact")
-      .def_prop_ro(
-         "searches", [](const Self &self) { return self.end.searches; },
-         "sets of sticking nodes that were tried")
+      .def_prop_ro("loss", copied(&Self::end, &WornOut::loss),
+                   "energy of a cycle, over that of the unworn contact")
+      .def_prop_ro("searches", copied(&Self::end, &WornOut::searches),
+                   "sets of sticking nodes that were tried")
       .def("__repr__",
            [](const Self &self)
            {
@@ -421,21 +372,18 @@ void bind_wear_march(nb::module_ &m)
            });
    m.def(
       "worn_out",
-      [](Of<ReducedProblem> problem, Of<LoadHistory> history, MaybeState contact,
-         Whole increments, Text stepping, Flag single_increment_if_exact, Whole max_halvings,
-         Text method, ProgressLike progress, StopLike stop)
+      [](const ReducedProblem &problem, const LoadHistory &history, const ContactState *contact,
+         MarchSettings settings, const ProgressLike &progress, const StopLike &stop)
       {
-         MarchSettings with = march_settings(increments, stepping, single_increment_if_exact,
-                                             max_halvings, method);
-         const ReducedProblem copy = given(problem, "problem");
-         const LoadHistory loads = given(history, "history");
+         const ReducedProblem copy = problem;
+         const LoadHistory loads = history;
          const ContactState from = state_or_rest(copy, contact);
          Watch watch(progress, stop);
-         with.monitor = watch.monitor();
+         settings.monitor = watch.monitor();
          Worn result = unlocked(
             [&]
             {
-               WornOut end = worn_out(copy, loads, from, with);
+               WornOut end = worn_out(copy, loads, from, settings);
                Eigen::VectorXd range = end.range.range();
                return Worn{std::move(end), std::move(range)};
             });
@@ -443,10 +391,7 @@ void bind_wear_march(nb::module_ &m)
          return result;
       },
       arg("problem"), arg("history"), arg("contact") = nb::none(), nb::kw_only(),
-      arg("increments") = march.increments, arg("stepping") = "advancing",
-      arg("single_increment_if_exact") = march.single_increment_if_exact,
-      arg("max_halvings") = march.max_halvings, arg("method") = "automatic",
-      arg("progress") = false, arg("stop") = nb::none(),
+      arg("settings") = MarchSettings(), arg("progress") = false, arg("stop") = nb::none(),
       "A fully worn state of partial slip, without the cycles that lead there: nodes that "
       "slip carry nothing, nodes that stick stay where they are, depth is what overlaps at any "
       "point of the cycle.\n\n"
@@ -463,6 +408,7 @@ void bind_wear_march(nb::module_ &m)
 void bind_wear(nb::module_ &m)
 {
    nb::module_ wear = m.def_submodule("wear", "Fretting wear.");
+   bind_settings<WearSettings>(wear);
    bind_law(wear);
    bind_state(wear);
    bind_report(wear);

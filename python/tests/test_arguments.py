@@ -36,7 +36,7 @@ def problem():
 
 
 def history():
-    return cattaneo.LoadHistory.through(problem(), [{}, {"P": 1}, {"P": 1, "Q": 0.2}, {"P": 1}], cycle_start=1)
+    return cattaneo.LoadHistory.through(problem(), [{}, {"P": 1}, {"Q": 0.2}, {"Q": 0}], cycle_start=1)
 
 
 def law():
@@ -59,7 +59,6 @@ def changed(matrix, i, j, value):
 
 K = triangle()
 SAID = [
-    (lambda: cattaneo.NodalStiffness(None, PLACES), TypeError, "K is None, must be numbers in rows and columns"),
     (lambda: cattaneo.NodalStiffness("K", PLACES), TypeError, "K is 'K', must be"),
     (lambda: cattaneo.NodalStiffness(K[:4], PLACES), ValueError, r"K has shape \(4, 6\), must be square"),
     (lambda: cattaneo.NodalStiffness(sparse.csr_array(K[:4]), PLACES), ValueError, r"K has shape \(4, 6\)"),
@@ -86,57 +85,41 @@ SAID = [
     (lambda: body().fix("TOP", "x"), ValueError, "there is no set 'TOP'"),
     (lambda: body().contact_line([0, 1], order=9), ValueError, "order is 9, must be from 0 to 8"),
     (lambda: body().contact_line([0]), ValueError, "no outer edge"),
-    (lambda: cattaneo.condense(body(), None), TypeError, "line is None, must be of class ContactLine"),
-    (lambda: cattaneo.condense(3, None), TypeError, "body is a int|an int, must be of class NodalStiffness or HalfPlane"),
-    (lambda: cattaneo.reduce([]), TypeError, "interfaces is a float, must be a list"),
-    (lambda: cattaneo.reduce([None], []), TypeError, r"bodies\[0\] is None, must be of class CondensedBody"),
-    (lambda: cattaneo.Interface("a", (0, None)), TypeError, r"first\[1\] is None, must be of class ContactLine"),
     (lambda: cattaneo.Material(1.0, 0.5), ValueError, "."),
     (lambda: cattaneo.ReducedProblem([[1.0]], [[0.0, 0]], [[1.0]], []), ValueError, r"B has shape \(1, 2\), must have \(1, 1\)"),
     (lambda: cattaneo.ReducedProblem([[1, 2], [0, 1]], np.zeros((2, 2)), np.eye(2), []), ValueError, r"A\[.*\] is .*, must be equal"),
     (lambda: setattr(problem(), "friction", [0.1, -0.1]), ValueError, r"friction\[1\] is -0.1, must not be negative"),
-    (lambda: setattr(problem(), "friction", None), TypeError, "friction is None"),
     (lambda: setattr(problem(), "gap", [1, 2, 3]), ValueError, "gap has 3 entries, must have 2"),
-    (lambda: cattaneo.march(None, []), TypeError, "problem is None, must be of class ReducedProblem"),
-    (lambda: cattaneo.march(problem(), "P=1"), TypeError, "history is 'P=1', must be a LoadHistory or a list"),
-    (lambda: cattaneo.march(problem(), [{}]), ValueError, "points has 1 entries, must have two at least"),
+    (lambda: cattaneo.march(problem(), [{}]), ValueError, "load history: 1 points, at least 2 are needed"),
     (lambda: cattaneo.march(problem(), [{}, {"R": 1}]), ValueError, "'R'"),
-    (lambda: cattaneo.march(problem(), [{}, {"P": np.inf}]), ValueError, r"points\[1\]\['P'\] is inf, must be finite"),
-    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], increments=0), ValueError, "increments is 0, must be from 1"),
-    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], increments=2.5), TypeError, "increments is a float, must be a whole number"),
-    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], stepping="euler"), ValueError, "stepping is 'euler', must be one of"),
-    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], progress=3), TypeError, "progress is an int, must be True, False or a function"),
-    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], stop=3), TypeError, "stop is an int, must be None or an object with is_set"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": np.inf}]), ValueError, "load .P. is inf at point 1, must be finite"),
+    (lambda: cattaneo.MarchSettings(increments=0), ValueError, "march settings: increments is 0, must be at least 1"),
+    (lambda: cattaneo.MarchSettings(increments=2.5), TypeError, "MarchSettings.increments is 2.5, must be int"),
+    (lambda: cattaneo.MarchSettings(stepping="euler"), ValueError, "MarchSettings.stepping is 'euler', must be one of 'fixed', "),
+    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], progress=3), TypeError, "progress is 3, must be True, False or a function"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], stop=3), TypeError, "stop is 3, must be None or an object with is_set"),
     (lambda: readout.tractions(problem(), [1, 2, 3]), ValueError, "nodal_forces has 3 entries, must have 2"),
     (lambda: shakedown.LoadCycle.through(problem(), {}, []), ValueError, "vertices has no entries"),
     (lambda: shakedown.closed_contact(problem(), [2]), ValueError, r"nodes\[0\] is 2, must be from 0 to 1"),
     (lambda: fretting.pressure(fretting.Edge(1, 0, 0.5), [1, np.nan]), ValueError, r"t\[1\] is nan, must be finite"),
     (lambda: fretting.hertz_slip_energy([1, 2], [1, 2, 3], 0.5, 1), ValueError, "do not fit each other, must broadcast"),
     (lambda: cattaneo.load_reduced_problem(""), ValueError, "file is '', must be the name of a file"),
-    (lambda: cattaneo.save(None, "x.json"), TypeError, "of is None, must be of class ReducedProblem, ContactState or WearState"),
     (lambda: wear.WearLaw([1, np.nan]), ValueError, r"coefficient\[1\] is nan, must be finite"),
     (lambda: wear.WearLaw([1.0, 2.0], threshold=[1.0]), ValueError, "threshold has 1 entries, must have 2"),
     (lambda: wear.WearLaw([1.0]).set(problem(), "", 2.0), ValueError, "wear law: 1 coefficients for 2 contact nodes"),
-    (lambda: wear.wear(problem(), 1e-3, history(), 1), TypeError, "law is a float, must be of class WearLaw"),
-    (lambda: wear.wear(problem(), law(), [{}, {"P": 1}], 1), TypeError, "history is a list of 2 entries, must be of class LoadHistory"),
     (lambda: wear.wear(problem(), law(), history(), 1.5), ValueError, "wear: cycles is 1.5, must be a whole number"),
-    (lambda: wear.wear(problem(), law(), history(), 1, tolerance=1), ValueError, "tolerance is 1, must be 0 or from 1e-8 to 0.1"),
-    (lambda: wear.wear(problem(), law(), history(), 1, update="never"), ValueError, "update is 'never', must be one of 'cycle', 'piece'"),
+    (lambda: wear.WearSettings(tolerance=1), ValueError, "tolerance is 1, must be 0 or from 1e-8 to 0.1"),
+    (lambda: wear.WearSettings(update="never"), ValueError, "WearSettings.update is 'never', must be one of 'cycle', 'piece'"),
     (lambda: wear.worn_volume(problem(), [1.0]), ValueError, "depth has 1 entries, must have 2"),
     (lambda: wear.WearState(cattaneo.ContactState.virgin(problem()), [1, 2, 3]), ValueError, "depth has 3 entries, must have 2"),
     (lambda: design.Parameters(gap=[[1.0]]), ValueError, "gap is a list of 1 entries, must be of one dimension"),
     (lambda: design.Response(1, {0: {"force": [1]}}), ValueError, r"a name in weights\[0\] is 'force', must be one of 'displacements'"),
-    (lambda: design.Response(1, {-1: {}}), ValueError, "a state of weights is -1, must be from 0"),
-    (lambda: design.Response(1, {}) + "a", TypeError, "other is 'a', must be a Response or a number"),
     (lambda: design.Response(1, {}) / 0, ValueError, "divided by one that is zero"),
-    (lambda: design.Responses(problem(), None), TypeError, "trace is None, must be of class MarchTrace"),
-    (lambda: design.DesignCase("a", None), TypeError, "history is None, must be of class LoadHistory"),
     (lambda: design.DesignProblem(problem(), [], np.eye(2), 0, 1), ValueError, "there is no load case"),
     (lambda: design.DesignProblem(problem(), [case()], np.eye(3), 0, 1), ValueError, r"variables has shape \(3, 3\), must have \(2, any\)"),
     (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 1, 0), ValueError, "variable 0 is bounded by 1 and 0"),
-    (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 0, 1, objective=3), TypeError, "objective is an int, must be a function or None"),
     (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 0, 1, limits=np.eye(2), most=np.nan), ValueError, r"most\[0\] is nan"),
-    (lambda: design.design(chosen(), [0, 0], tolerance=1e-20), ValueError, "design settings: tolerance is 1e-20, must be from 1e-14 to 1"),
+    (lambda: design.DesignSettings(tolerance=1e-20), ValueError, "design settings: tolerance is 1e-20, must be from 1e-14 to 1"),
     (lambda: design.design(chosen(), [9, 9]), ValueError, "variable 0 starts at 9, must lie between 0 and 1"),
 ]
 
@@ -151,45 +134,43 @@ def test_what_is_said(k):
     assert kind is TypeError or isinstance(caught.value, cattaneo.InputError)
 
 
-def test_calls_that_fit_no_signature():
-    """Say what does not fit, in the words of the call; of functions, methods, static ones and classes alike."""
+def test_what_is_of_another_kind():
+    """The binding library says which arguments there are, of which classes."""
     p = problem()
-    for call, sentence in (
-        (lambda: cattaneo.march(p, [{}, {"P": 1}], incremnts=3), r"march: there is no argument 'incremnts' \(is 'increments' meant\?\), must be one of 'problem', 'history', "),
-        (lambda: cattaneo.march(p, [{}, {"P": 1}], None, 3), "march: 4 arguments are given by place, must be at most 3: 'problem', 'history', 'state'; by their names: 'increments'"),
-        (lambda: cattaneo.march(p), "march: argument 'history' is missing, its arguments are 'problem', 'history'"),
-        (lambda: cattaneo.march(p, [{}, {"P": 1}], problem=p), "march: argument 'problem' is given twice"),
-        (lambda: cattaneo.NodalStiffness(K, PLACES, element=[[0, 1, 2]]), r"NodalStiffness: there is no argument 'element' \(is 'elements' meant"),
-        (lambda: cattaneo.Material(1.0), "Material: argument 'poisson' is missing"),
-        (lambda: body().fix([0], direction="x", node=[0]), "NodalStiffness.fix: there is no argument 'node'"),
-        (lambda: body().fix(), "NodalStiffness.fix: argument 'nodes' is missing"),
-        (lambda: cattaneo.LoadHistory.through(p, [{}, {"P": 1}], cycle=2), r"LoadHistory.through: there is no argument 'cycle' \(is 'cycles' meant"),
-        (lambda: p.copy(1), "ReducedProblem.copy: 1 argument is given by place, must be at most 0"),
-        (lambda: p.copy(deep=True), "ReducedProblem.copy: there is no argument 'deep', it takes none"),
-        (lambda: wear.wear(p, law(), history(), cycle=3), r"wear: there is no argument 'cycle' \(is 'cycles' meant"),
-        (lambda: design.DesignCase("a", history(), start=3), "DesignCase: there is no argument 'start', must be one of 'name', 'history', 'weight', 'from_'"),
-        (lambda: shakedown.load_limit(problem=None, tol=1), "load_limit: there is no argument 'tol'"),
-        (lambda: fretting.pressure(fretting.Edge(1, 0, 0.5)), "pressure: argument 't' is missing"),
+    for call in (
+        lambda: cattaneo.NodalStiffness(None, PLACES),
+        lambda: cattaneo.condense(body(), None),
+        lambda: cattaneo.condense(3, None),
+        lambda: cattaneo.reduce([]),
+        lambda: cattaneo.reduce([None], []),
+        lambda: cattaneo.Interface("a", (0, None)),
+        lambda: setattr(problem(), "friction", None),
+        lambda: cattaneo.march(None, []),
+        lambda: cattaneo.march(problem(), "P=1"),
+        lambda: cattaneo.save(None, "x.json"),
+        lambda: wear.wear(problem(), 1e-3, history(), 1),
+        lambda: wear.wear(problem(), law(), [{}, {"P": 1}], 1),
+        lambda: design.Response(1, {-1: {}}),
+        lambda: design.Response(1, {}) + "a",
+        lambda: design.Responses(problem(), None),
+        lambda: design.DesignCase("a", None),
+        lambda: design.DesignProblem(problem(), [case()], np.eye(2), 0, 1, objective=3),
+        lambda: cattaneo.march(p),
+        lambda: cattaneo.march(p, [{}, {"P": 1}], incremnts=3),
+        lambda: cattaneo.march(p, [{}, {"P": 1}], settings={"increments": 3}),
+        lambda: cattaneo.NodalStiffness(K, PLACES, element=[[0, 1, 2]]),
+        lambda: cattaneo.Material(1.0),
+        lambda: body().fix([0], direction="x", node=[0]),
+        lambda: cattaneo.LoadHistory.through(p, [{}, {"P": 1}], cycle=2),
+        lambda: p.copy(1),
+        lambda: wear.wear(p, law(), history(), cycle=3),
+        lambda: shakedown.load_limit(problem=None, tol=1),
+        lambda: fretting.pressure(fretting.Edge(1, 0, 0.5)),
     ):
-        with pytest.raises(TypeError, match=sentence) as caught:
+        with pytest.raises(TypeError, match="incompatible function arguments|unsupported operand"):
             call()
-        assert "\n" not in str(caught.value) and "incompatible" not in str(caught.value)
-
-
-def test_every_function_names_its_arguments():
-    """Whatever is bound: a name that none has is refused in one sentence with those that there are."""
-    count = 0
-    for name, call in callables()[1]:
-        if type(call).__name__ not in ("nb_func", "nb_bound_method", "nb_type"):
-            continue
-        try:
-            call(no_such_name=1)
-        except TypeError as error:
-            text = str(error)
-            assert "\n" not in text and "incompatible" not in text, (name, text)
-            assert "no_such_name" in text or "no constructor" in text, (name, text)
-            count += 1
-    assert count > 150
+    with pytest.raises(TypeError, match="history: cattaneo._core.LoadHistory .*settings: cattaneo._core.MarchSettings"):
+        cattaneo.march(p, [{}, {"P": 1}], incremnts=3)
 
 
 def test_a_mask_is_not_numbers():
@@ -202,7 +183,7 @@ def test_a_mask_is_not_numbers():
 def test_numbers_of_numpy_are_numbers():
     made = problem()
     made.friction = np.float32(0.5)
-    assert cattaneo.march(made, [{}, {"P": np.int64(1)}], increments=np.int32(3), keep_states=np.bool_(True)).converged
+    assert cattaneo.march(made, [{}, {"P": np.int64(1)}], settings=cattaneo.MarchSettings(increments=np.int32(3), steady_tolerance=np.float32(1e-6))).converged
 
 
 def callables():
@@ -305,11 +286,11 @@ def nearly_right():
     change = design.Parameters(friction=[1, 0], gap=[0, 1])
     return [
         (wear.WearLaw, [[1e-3, 1e-3]], {"threshold": 0.1, "of_energy": True}),
-        (wear.wear, [p, law(), history(), 2], {"state": None, "update": "piece", "tolerance": 1e-3, "final_share": 0.0, "increments": 2, "stepping": "exact", "observer": None, "stop": None}),
-        (wear.worn_out, [p, history()], {"contact": None, "increments": 2}),
+        (wear.wear, [p, law(), history(), 2], {"state": None, "settings": wear.WearSettings(update="piece", tolerance=1e-3, march=cattaneo.MarchSettings(increments=2)), "observer": None, "stop": None}),
+        (wear.worn_out, [p, history()], {"contact": None, "settings": cattaneo.MarchSettings(increments=2)}),
         (wear.worn_depth, [p, law(), state, state], {}),
         (wear.WearState, [state, [0.0, 1.0]], {"dissipation": 1.0, "cycles": 3}),
-        (design.trace_march, [p, at], {"state": None, "increments": 2, "stepping": "exact"}),
+        (design.trace_march, [p, at], {"state": None, "settings": cattaneo.MarchSettings(increments=2, stepping="exact")}),
         (design.Response, [1.0, {0: {"forces": [1, 0, 0, 0]}}], {}),
         (lambda *a: of.dissipation(*a), [0, 1, 0], {}),
         (lambda *a: of.shear_resultant(*a), [1, [1.0, 2.0], 0], {}),
@@ -322,21 +303,24 @@ def nearly_right():
         (lambda *a: trace.other_side(*a), [design.ties(p, trace)], {}),
         (design.DesignCase, ["a", at], {"weight": 2.0, "from_": 1.0}),
         (design.DesignProblem, [p, [case()], np.eye(2), 0, 1], {"limits": np.eye(2), "least": [0, -np.inf], "most": 1.0, "goal": "least_sum", "objective": lambda of, states: []}),
-        (design.design, [chosen(), [0.1, 0.2]], {"tolerance": 1e-6, "max_iterations": 3, "increments": 2}),
+        (design.design, [chosen(), [0.1, 0.2]], {"settings": design.DesignSettings(tolerance=1e-6, max_iterations=3)}),
         (cattaneo.NodalStiffness, [triangle(), PLACES, [[0, 1], [2, 3], [4, 5]], [[0, 1, 2]]], {"fixed": [4], "loads": {"P": np.ones(6)}, "sets": {"A": [0, 1]}, "name": "b"}),
         (lambda *a: body().fix(*a), [[0], "x"], {}),
         (lambda *a: body().add_forces(*a), ["P", [0], "y", 1.0], {}),
         (lambda *a: body().add_displacement(*a), ["D", [0], "y", 1.0], {}),
         (lambda *a: body().add_traction(*a), ["T", [0, 1], (0, 1)], {}),
         (lambda *a: body().contact_line(*a), [[0, 1], 1], {}),
-        (cattaneo.condense, [body(), line], {"order": 1, "formulation": "plane"}),
+        (cattaneo.condense, [body(), line], {}),
+        (cattaneo.MarchSettings, [], {"increments": 2, "stepping": "exact", "friction": cattaneo.FrictionSettings(tolerance=1e-10), "increments_of_piece": [1, 2], "loss_error": True}),
+        (readout.FitSettings, [], {"window": (0.1, 0.2), "skip": 1}),
+        (lambda *a: setattr(cattaneo.MarchSettings(), *a), ["increments", 3], {}),
         (cattaneo.condense, [half_plane, [0, 1, 2]], {"order": 2, "formulation": "plane"}),
         (cattaneo.reduce, [condensed, 0.1], {}),
         (cattaneo.reduce, [[condensed], [cattaneo.Interface("a", (0, line))]], {}),
         (cattaneo.Interface, ["a", (0, line), (0, line)], {"slave": "finer", "gap": 0.0, "most_overlap": 0.1}),
         (cattaneo.ReducedProblem, [np.eye(2), np.zeros((2, 2)), np.eye(2), p.patterns], {"gap": [0, 1], "friction": 0.3, "weights": [1, 1], "arc_length": [0, 1], "position": np.eye(2), "H": np.zeros((2, 2))}),
         (cattaneo.LoadHistory.through, [p, [{}, {"P": 1}, {"P": 1}]], {"cycle_start": 1, "cycles": 2, "times": [0, 1, 2]}),
-        (cattaneo.march, [p, [{}, {"P": 1}, {"P": 1, "Q": 0.2}]], {"increments": 2, "stepping": "exact", "tolerance": 1e-12, "max_halvings": 3, "steady_tolerance": 1e-9, "keep_states": True, "observer": None, "stop": None}),
+        (cattaneo.march, [p, [{}, {"P": 1}, {"P": 1, "Q": 0.2}]], {"settings": cattaneo.MarchSettings(increments=2, stepping="exact"), "keep_states": True, "observer": None, "stop": None}),
         (cattaneo.march, [p, at, state], {}),
         (cattaneo.ContactState.with_slip, [p, [0.1, 0.2]], {}),
         (reduction.displacement, [0, cattaneo.ContactState.virgin(reduction.problem)], {}),
@@ -345,11 +329,11 @@ def nearly_right():
         (cattaneo.hold, [problem(), [0]], {}),
         (readout.zones, [p, state], {}),
         (readout.tractions, [p, state.p], {}),
-        (shakedown.load_limit, [limit], {"tolerance": 1e-4, "max_iterations": 50, "start": None}),
-        (shakedown.friction_limit, [limit, 0.3], {"largest_friction": 3.0}),
+        (shakedown.load_limit, [limit], {"settings": shakedown.LimitSettings(tolerance=1e-4, max_iterations=50), "start": None}),
+        (shakedown.friction_limit, [limit, 0.3], {"settings": shakedown.LimitSettings(largest_friction=3.0)}),
         (shakedown.closed_contact, [p, [0, 1]], {}),
         (shakedown.stay_closed, [p, cycle, 0.2, 2], {}),
-        (shakedown.transient, [limit, 0.2], {"start": [0.0, 0.1], "cycles": 3}),
+        (shakedown.transient, [limit, 0.2], {"start": [0.0, 0.1], "settings": shakedown.TransientSettings(cycles=3)}),
         (fretting.stress, [edge, [0.1, 0.2], 0.3], {}),
         (fretting.hertz_slip_energy, [0.3, 1.0, [0.2, 0.5], 1.0], {}),
         (cattaneo.HalfPlaneField, [half_plane, cattaneo.condense(half_plane, [0.0, 1.0, 2.0]).line, np.zeros(6)], {}),

@@ -45,8 +45,8 @@ def test_cattaneo_mindlin_stick_and_loss(hertz):
     Q = 0.6 * friction * pressed
     points = [{}, {"P": pressed}] + [{"P": pressed, "Q": s * Q} for s in (1, -1, 1)]
     history = cattaneo.LoadHistory.through(hertz, points, cycle_start=2, cycles=4)
-    report = cattaneo.march(hertz, history, stepping="exact")
-    stick = readout.stick_zone(hertz, cattaneo.march(hertz, points[:3], increments=40).state)
+    report = cattaneo.march(hertz, history, settings=cattaneo.MarchSettings(every_event=True))
+    stick = readout.stick_zone(hertz, cattaneo.march(hertz, points[:3], settings=cattaneo.MarchSettings(increments=40)).state)
     assert stick.width / 2 == pytest.approx(a * np.sqrt(1 - 0.6), abs=stick.from_.error)
     x = 0.6
     exact = 4 * (friction * pressed) ** 2 / (np.pi * modulus) * ((1 - x) * np.log(1 - x) + x - x**2 / 2)
@@ -116,7 +116,7 @@ def test_slider_by_hand():
     problem = slider(k, f)
     points = [{}, {"P": P}] + [{"P": P, "d": s * d} for s in (1, -1, 1)]
     history = cattaneo.LoadHistory.through(problem, points, cycle_start=2)
-    report = cattaneo.march(problem, history, stepping="exact", keep_states=True)
+    report = cattaneo.march(problem, history, settings=cattaneo.MarchSettings(stepping="exact"), keep_states=True)
     assert report.state.v == pytest.approx([d - f * P / k], rel=1e-14)
     assert report.state.q == pytest.approx([-f * P], rel=1e-14)
     assert report.conjugates["d"][-1] == pytest.approx(f * P, rel=1e-14)
@@ -185,12 +185,13 @@ def test_lower_limit_with_nodes_apart():
     assert upper.coupled and upper.every_start == pytest.approx(0.4, abs=1e-7)
     for words in ("stay closed", "some start shakes down, and not every start", "λ1", "at least 0.4"):
         assert words in str(upper) and words in " ".join([upper.assumption, *upper.statement])
-    unasked = shakedown.load_limit(contact, every_start=False)
+    unasked = shakedown.load_limit(contact, settings=shakedown.LimitSettings())
     assert np.isnan(unasked.every_start) and "not asked for" in str(unasked)
     assert "with more friction some start" in str(shakedown.friction_limit(contact, 0.3))
     # From rest the chain shakes down below λ1; above the upper limit nothing does, as far as it is known.
-    assert shakedown.transient(contact, 0.39, cycles=100).verdict == "shaken down"
-    above = shakedown.transient(contact, upper.upper * 1.00001, upper.slip, cycles=100, limit=upper)
+    hundred = shakedown.TransientSettings(cycles=100)
+    assert shakedown.transient(contact, 0.39, settings=hundred).verdict == "shaken down"
+    above = shakedown.transient(contact, upper.upper * 1.00001, upper.slip, limit=upper, settings=hundred)
     assert above.verdict in ("cyclic slip", "still slipping")
     # A limit that was not found has no bounds.
     pulled = shakedown.limit_problem(problem, shakedown.held_and_cycled(problem, "P", -1, "Q", -1))
@@ -228,7 +229,7 @@ def test_criteria_on_critical_planes(tmp_path):
     assert value == pytest.approx(62**2 / 74e3)
     assert np.sin(angle) == pytest.approx(0, abs=1e-6)
     shear = [[0, 0, 0, 10], [0, 0, 0, -10]]
-    assert fretting.critical_plane("findley", material, shear, findley=0.2)[0] == pytest.approx(10 * np.hypot(1, 0.2))
+    assert fretting.critical_plane("findley", material, shear, weights=fretting.PlaneWeights(findley=0.2))[0] == pytest.approx(10 * np.hypot(1, 0.2))
     with pytest.raises(ValueError, match="cycle"):
         fretting.critical_plane("findley", material, [[1, 2, 3]])
     with pytest.raises(ValueError, match="fatemi_socie"):

@@ -18,9 +18,10 @@ def slow_march(problem, **options):
     """Minutes of work, if nobody stops it."""
     P = {"P": 1.0}
     history = cattaneo.LoadHistory.through(
-        problem, [{}, P, P | {"Q": 0.2}, P | {"Q": -0.2}, P | {"Q": 0.2}], cycle_start=2, cycles=10**6
+        problem, [{}, P, {"Q": 0.2}, {"Q": -0.2}, {"Q": 0.2}], cycle_start=2, cycles=10**6
     )
-    return cattaneo.march(problem, history, increments=100, stop_at_steady_state=False, **options)
+    settings = cattaneo.MarchSettings(increments=100, stop_at_steady_state=False)
+    return cattaneo.march(problem, history, settings=settings, **options)
 
 
 @pytest.fixture
@@ -39,8 +40,7 @@ def test_public_problems_have_their_solutions(root, name):
     report = cattaneo.march(
         problem,
         cattaneo.LoadHistory.through(problem, [{}] + points),
-        increments=1,
-        stepping="fixed",
+        settings=cattaneo.MarchSettings(increments=1, stepping="fixed"),
         keep_states=True,
     )
     stored = {key: np.array([i[key] for i in solution["increments"]]) for key in "vwqp"}
@@ -71,12 +71,35 @@ def test_points_go_on_from_where_the_state_stands(hertz):
     assert rest.loads == points[2] and rest.state.time == 2
     assert np.array_equal(rest.state.v, cattaneo.march(hertz, points).state.v)
     with pytest.raises(cattaneo.InputError, match="load 'P' is 0 at its first point, and 1 in the state"):
-        cattaneo.march(hertz, points, half.state)
+        cattaneo.march(hertz, [{"P": 0}, *points[1:]], half.state)
+    # A load that the first point does not name is that of the state, and keeps it.
+    same = cattaneo.march(hertz, [{}, {"Q": 0.2}], half.state)
+    assert same.loads == points[2] and np.array_equal(same.state.v, rest.state.v)
     for history in ([{"P": 1}, {"P": 2}], cattaneo.LoadHistory.through(hertz, [{"P": 1}, {"P": 2}])):
         with pytest.raises(cattaneo.InputError, match="load 'P' is 1 at its first point, and 0 before any load"):
             cattaneo.march(hertz, history)
     with pytest.warns(cattaneo.OutcomeWarning, match="nothing was marched"):
         cattaneo.march(hertz, cattaneo.LoadHistory.through(hertz, points[:2]), half.state)
+
+
+def test_a_load_that_is_not_named_keeps_its_value(hertz):
+    """In Python as in the words of a case file; the cycle closes with the loads that it begins with."""
+    points = [{}, {"P": 1}, {"Q": 0.2}, {"P": 0.5}, {"Q": -0.1}]
+    named = cattaneo.LoadHistory.through(hertz, points)
+    assert np.array_equal(named.multipliers, [[0, 1, 1, 0.5, 0.5], [0, 0, 0.2, 0.2, -0.1]])
+    read = cattaneo.LoadHistory.read(hertz, "P=0; P=1; Q=0.2; P=0.5; Q=-0.1")
+    assert np.array_equal(read.multipliers, named.multipliers)
+    cyclic = cattaneo.LoadHistory.through(hertz, [{}, {"P": 1}, {"Q": 0.2}, {"Q": 0}], cycle_start=1, cycles=3)
+    assert (cyclic.cycle_start, cyclic.cycles) == (1, 3)
+    for options, sentence in (
+        ({"cycle_start": 2}, "load 'Q' is 0 at the end of the cycle and 0.2 at its start"),
+        ({"cycle_start": 3}, "the cycle starts at point 3, must be one of 0 to 2"),
+        ({"cycle_start": -1}, "cycle_start is -1, must be the number of a point"),
+        ({"cycle_start": 1, "cycles": 0}, "0 cycles, must be at least 1"),
+        ({"cycles": 2}, "cycles needs cycle_start"),
+    ):
+        with pytest.raises(cattaneo.InputError, match=sentence):
+            cattaneo.LoadHistory.through(hertz, [{}, {"P": 1}, {"Q": 0.2}, {"Q": 0}], **options)
 
 
 def test_problems_and_states_are_pickled_and_copied(hertz):

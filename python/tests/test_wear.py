@@ -31,7 +31,7 @@ def sliders(nodes=2):
 
 
 def history(problem, held, swept):
-    points = [{}, held] + [held | {name: s * value for name, value in swept.items()} for s in (1, -1, 1)]
+    points = [{}, held] + [{name: s * value for name, value in swept.items()} for s in (1, -1, 1)]
     return cattaneo.LoadHistory.through(problem, points, cycle_start=2)
 
 
@@ -50,7 +50,7 @@ def block():
 def test_sliders_by_hand(block, tolerance):
     """Depth = k p times the way, energy = f P times the way of each, marched or jumped over."""
     problem, loads = block
-    report = wear.wear(problem, wear.WearLaw.uniform(problem, k), loads, 400, tolerance=tolerance)
+    report = wear.wear(problem, wear.WearLaw.uniform(problem, k), loads, 400, settings=wear.WearSettings(tolerance=tolerance))
     assert report.converged and (report.jumps > 0) == (tolerance > 0)
     assert report.state.depth == pytest.approx([k * P * way(400)] * 2, rel=1e-10)
     assert report.state.dissipation == pytest.approx([friction * P * way(400)] * 2, rel=1e-10)
@@ -77,7 +77,7 @@ def test_law(block):
     for coefficient in (-k, [k, k, k]):
         with pytest.raises(cattaneo.InputError, match="wear law|must be one for each"):
             wear.wear(problem, wear.WearLaw(np.broadcast_to(coefficient, np.shape(coefficient) or 2)), loads, 1)
-    marched = cattaneo.march(problem, loads, keep_states=True, increments=3).states
+    marched = cattaneo.march(problem, loads, settings=cattaneo.MarchSettings(increments=3), keep_states=True).states
     depth = sum(wear.worn_depth(problem, law, a, b) for a, b in zip(marched, marched[1:]))
     assert depth[0] == pytest.approx(k * P * way(1), rel=1e-12)
     assert wear.worn_volume(problem, depth) == pytest.approx(2 * depth[0])
@@ -102,7 +102,7 @@ def hertz():
 def test_worn_out_parabola(hertz):
     """Ciavarella and Hills (1999): stick keeps its half-width c = a √(1 - Q/fP), and bears all of P."""
     problem, loads = hertz
-    end = wear.worn_out(problem, loads, increments=1)
+    end = wear.worn_out(problem, loads, settings=cattaneo.MarchSettings(increments=1))
     assert end.converged and end.loss < 1e-8
     x, c = problem.position[:, 0], np.sqrt(0.5)
     assert abs(x[end.stick]).max() == pytest.approx(c, abs=2e-3)
@@ -122,10 +122,10 @@ def test_volume_is_that_of_the_energy(hertz):
     much that its own update is implicit: such cycles are all marched."""
     problem, loads = hertz
     law = wear.WearLaw.uniform(problem, 0.01)
-    report = wear.wear(problem, law, loads, 2000, increments=1, tolerance=1e-2)
+    report = wear.wear(problem, law, loads, 2000, settings=wear.WearSettings(march=cattaneo.MarchSettings(increments=1), tolerance=1e-2))
     assert report.jumps > 0 and report.implicit_cycles == 0
     assert report.volume == pytest.approx(0.01 / friction * report.dissipation, rel=1e-9)
-    end = wear.worn_out(problem, loads, increments=1)
+    end = wear.worn_out(problem, loads, settings=cattaneo.MarchSettings(increments=1))
     assert report.state.depth == pytest.approx(end.depth, abs=0.02 * end.depth.max())
 
 
@@ -190,7 +190,7 @@ def test_states_are_those_of_the_worn_contact(tolerance):
         wear.WearLaw.uniform(problem, 1e-4),
         history(problem, {"P": 1.0}, {"D": 1.0}),
         2000,
-        tolerance=tolerance,
+        settings=wear.WearSettings(tolerance=tolerance),
         observer=lambda state, record: seen.append(state),
     )
     assert report.reached and report.remark == ""
@@ -224,11 +224,12 @@ def test_a_worn_gap_without_an_equilibrium_is_warned_of(tolerance):
     last = len(depth) - 1
     loads = history(problem, {"P": 1.0}, {"Q": Q})
     law = wear.WearLaw.uniform(problem, k)
+    settings = wear.WearSettings(tolerance=tolerance, march=cattaneo.MarchSettings(stepping="exact"))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert wear.wear(problem, law, loads, last - 1, tolerance=tolerance, stepping="exact").remark == ""
+        assert wear.wear(problem, law, loads, last - 1, settings=settings).remark == ""
     with pytest.warns(cattaneo.OutcomeWarning, match=f"after cycle {last} no equilibrium was found at the worn gap"):
-        report = wear.wear(problem, law, loads, last, tolerance=tolerance, stepping="exact")
+        report = wear.wear(problem, law, loads, last, settings=settings)
     assert report.converged and report.reached and report.state.cycles == last
     assert report.state.depth == pytest.approx([depth[-1], 0], abs=1e-12)
     assert report.state.contact.p == pytest.approx([1 - depth[-2], 1], abs=1e-12)
@@ -237,4 +238,4 @@ def test_a_worn_gap_without_an_equilibrium_is_warned_of(tolerance):
 def test_worn_out_says_that_a_march_may_end_elsewhere(hertz):
     problem, loads = hertz
     assert "may be another" in wear.worn_out.__doc__
-    assert "a march may end elsewhere" in repr(wear.worn_out(problem, loads, increments=1))
+    assert "a march may end elsewhere" in repr(wear.worn_out(problem, loads, settings=cattaneo.MarchSettings(increments=1)))

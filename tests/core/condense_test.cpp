@@ -1,6 +1,7 @@
 #include "comparison.hpp"
 #include "expect_input_error.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/stiffness_error.hpp>
@@ -587,6 +588,74 @@ TEST(CondenseMatrix, EliminatedRowsAreSupports)
    bed.grounded = true;
    EXPECT_TRUE(bed.eliminated().empty());
    EXPECT_EQ(bed.eliminated_warning(), "");
+}
+
+/// A support on a slope that was eliminated in axes of its own, the matrix turned back.
+TEST(CondenseMatrix, SupportsOnASlopeThatWereEliminatedAreRefused)
+{
+   const Frame frame(4, 3, true);
+   const AssembledBody body = frame.body(true);
+   const MatrixXd K = MatrixXd(body.K.view());
+   const auto sparse = [](const MatrixXd &full)
+   { return SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(full.sparseView())); };
+   const int node = 4; // in the middle of the frame
+   for (const double degrees : {-60.0, 0.5, 30.0, 45.0, 89.0})
+   {
+      const double angle = degrees / 180 * std::acos(-1.0);
+      MatrixXd turn = MatrixXd::Identity(K.rows(), K.cols());
+      turn.block(2 * node, 2 * node, 2, 2) = Eigen::Rotation2Dd(angle).toRotationMatrix();
+      for (const double diagonal : {1.0, 1e-3, 1e6})
+      {
+         for (const bool grounded : {false, true})
+         {
+            SCOPED_TRACE(testing::Message() << degrees << " degrees, " << diagonal);
+            MatrixXd along = turn.transpose() * K * turn;
+            along.row(2 * node).setZero();
+            along.col(2 * node).setZero();
+            along(2 * node, 2 * node) = diagonal;
+            MatrixXd back = turn * along * turn.transpose();
+            back = (0.5 * (back + back.transpose())).eval();
+            AssembledBody gone = body;
+            gone.K = sparse(back);
+            gone.grounded = grounded;
+            expect_input_error([&] { condense(gone, frame.line()); },
+                               "holds the node (0, 1) along (");
+         }
+      }
+      // A spring on the slope is none, be it soft or stiff.
+      for (const double stiff : {1e-3, 1.0, 1e3})
+      {
+         MatrixXd sprung = K;
+         const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
+         sprung.block(2 * node, 2 * node, 2, 2) += stiff * n * n.transpose();
+         AssembledBody held = body;
+         held.K = sparse(sprung);
+         held.grounded = true;
+         EXPECT_NO_THROW(condense(held, frame.line()));
+      }
+      // Nor is a bar on a slope that ends at a node of its own.
+      MatrixXd with_bar = MatrixXd::Zero(K.rows() + 2, K.cols() + 2);
+      with_bar.topLeftCorner(K.rows(), K.cols()) = K;
+      const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
+      const std::vector<int> ends{2 * node, 2 * node + 1, static_cast<int>(K.rows()),
+                                  static_cast<int>(K.rows()) + 1};
+      const Eigen::Vector4d stretch = (Eigen::Vector4d() << -n, n).finished();
+      with_bar(ends, ends) += stretch * stretch.transpose();
+      AssembledBody bar = body;
+      bar.K = sparse(with_bar);
+      const Eigen::Index size = with_bar.rows();
+      bar.places.x.conservativeResize(size);
+      bar.places.y.conservativeResize(size);
+      bar.places.x.tail(2).setConstant(frame.x[node] + n[0]);
+      bar.places.y.tail(2).setConstant(frame.y[node] + n[1]);
+      bar.places.component.insert(bar.places.component.end(), {0, 1});
+      for (BodyLoad &load : bar.loads)
+      {
+         load.values.conservativeResize(size);
+         load.values.tail(2).setZero();
+      }
+      EXPECT_NO_THROW(bar.validate());
+   }
 }
 
 TEST(CondenseMatrix, LinesThatArePairedAreSound)

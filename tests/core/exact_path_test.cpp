@@ -1,4 +1,5 @@
 #include "random_problem.hpp"
+#include "same_state.hpp"
 #include "small_problems.hpp"
 
 #include <cattaneo/friction/exact_path.hpp>
@@ -13,6 +14,7 @@ namespace
 {
 
 using namespace cattaneo;
+using cattaneo_test::expect_same;
 using cattaneo_test::one_block;
 using cattaneo_test::random_problem;
 using Eigen::Index;
@@ -23,6 +25,8 @@ MarchSettings exact_settings()
 {
    MarchSettings settings;
    settings.stepping = Stepping::exact;
+   settings.increments = 1;
+   settings.every_event = true;
    return settings;
 }
 
@@ -319,6 +323,103 @@ TEST(ExactPath, CutAtAnyEventGivesTheSameToRoundOff)
       EXPECT_EQ(rest.time, whole.time);
    }
    std::remove(file.c_str());
+}
+
+/// Increments are stops of the path: they change neither where it leads nor how often its
+/// equations are factored, and rows are there at each of them, whatever lies between.
+TEST(ExactPath, StopsAreRowsAndNoFactors)
+{
+   std::mt19937 random(38);
+   for (int k = 0; k < 10; ++k)
+   {
+      const ReducedProblem problem = random_problem(6 + k, 0.15 + 0.03 * k, 0.1, random);
+      const LoadHistory history = press_shear_and_ease(0.8, 2);
+      MarchSettings settings;
+      settings.increments = 1;
+      ContactState once = ContactState::virgin(problem);
+      const MarchReport first = march(problem, history, once, settings);
+      ASSERT_EQ(first.status, FrictionStatus::converged);
+      EXPECT_EQ(first.counters.increments, history.pieces());
+      EXPECT_TRUE(first.changes.empty());
+      for (const int stops : {7, 40})
+      {
+         settings.increments = stops;
+         ContactState state = ContactState::virgin(problem);
+         double time = 0;
+         const MarchReport report =
+            march(problem, history, state, settings,
+                  [&](const ContactState &now, const IncrementRecord &record)
+                  {
+                     EXPECT_NEAR(now.time, time + 1.0 / stops, 1e-12);
+                     EXPECT_EQ(record.time, now.time);
+                     EXPECT_EQ(record.event, -1);
+                     time = now.time;
+                  });
+         EXPECT_EQ(report.counters.increments, stops * history.pieces());
+         EXPECT_EQ(report.events, first.events);
+         EXPECT_EQ(report.counters.dense_factorisations, first.counters.dense_factorisations);
+         EXPECT_EQ(report.counters.newton_steps - first.counters.newton_steps, 0);
+         EXPECT_LT((state.p - once.p).cwiseAbs().maxCoeff(), 1e-12 * once.peak_force);
+         EXPECT_LT((state.q - once.q).cwiseAbs().maxCoeff(), 1e-12 * once.peak_force);
+         EXPECT_NEAR(state.dissipation, once.dissipation, 1e-12);
+         EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
+         double lost = 0, work = 0;
+         for (const IncrementRecord &record : report.increments)
+         {
+            lost += record.dissipation;
+            work += record.external_work;
+         }
+         EXPECT_NEAR(lost, state.dissipation, 1e-13);
+         // Rows of events, in place of stops, add up to the same.
+         settings.every_event = true;
+         ContactState every = ContactState::virgin(problem);
+         const MarchReport all = march(problem, history, every, settings);
+         settings.every_event = false;
+         EXPECT_EQ(all.events, report.events);
+         EXPECT_EQ(all.changes.size(), static_cast<std::size_t>(all.events));
+         double all_work = 0;
+         for (const IncrementRecord &record : all.increments)
+         {
+            all_work += record.external_work;
+         }
+         EXPECT_NEAR(all_work, work, 1e-12);
+         EXPECT_LT((every.q - state.q).cwiseAbs().maxCoeff(), 1e-12 * once.peak_force);
+      }
+   }
+}
+
+TEST(ExactPath, TakenUpAtAnyStopComesToTheSameForces)
+{
+   std::mt19937 random(39);
+   int taken_up = 0;
+   for (int k = 0; k < 10; ++k)
+   {
+      const ReducedProblem problem = random_problem(5 + k, 0.15 + 0.04 * k, 0.1, random);
+      const LoadHistory history = press_shear_and_ease(0.8, 2);
+      MarchSettings settings;
+      settings.increments = 5;
+      settings.stop_at_steady_state = false;
+      std::vector<ContactState> stops;
+      ContactState whole = ContactState::virgin(problem), again = whole;
+      const MarchReport report =
+         march(problem, history, whole, settings,
+               [&](const ContactState &now, const IncrementRecord &) { stops.push_back(now); });
+      ASSERT_EQ(report.status, FrictionStatus::converged);
+      ASSERT_EQ(report.fallbacks, 0);
+      // The same once more has the same bits.
+      march(problem, history, again, settings);
+      expect_same(again, whole);
+      for (ContactState &stop : stops)
+      {
+         const double time = stop.time;
+         EXPECT_EQ(march(problem, history, stop, settings).status, FrictionStatus::converged);
+         EXPECT_LT((stop.q - whole.q).cwiseAbs().maxCoeff(), 1e-12 * whole.peak_force) << time;
+         EXPECT_LT((stop.p - whole.p).cwiseAbs().maxCoeff(), 1e-12 * whole.peak_force) << time;
+         EXPECT_EQ(stop.status, whole.status);
+         ++taken_up;
+      }
+   }
+   EXPECT_GT(taken_up, 200);
 }
 
 TEST(ExactPath, UnitsDoNotMatter)

@@ -745,9 +745,19 @@ TEST_F(Exchange, ADeckMayNameTheThirdCoordinateOrEndItsLinesWithAComma)
       write_whole("m.inp", nodes);
       EXPECT_EQ(read_stiffness("m.sti").places.at(2), Eigen::Vector2d(1, 2)) << nodes;
    }
-   write_whole("m.inp", "*NODE\n1, 0., 2., 1.\n2, 1., 2.\n");
-   expect_input_error([&] { read_stiffness("m.sti"); },
-                      "node 1 is at z = 1, must be in the plane");
+   // Round-off is no third dimension, and the plane may be anywhere.
+   for (const char *nodes : {"*NODE\n1, 0., 2., 1e-17\n2, 1., 2.\n",
+                             "*NODE\n1, 0., 2., 12.5\n2, 1., 2., 12.5000000001\n"})
+   {
+      write_whole("m.inp", nodes);
+      EXPECT_EQ(read_stiffness("m.sti").places.at(2), Eigen::Vector2d(1, 2)) << nodes;
+   }
+   for (const char *nodes :
+        {"*NODE\n1, 0., 2., 1.\n2, 1., 2.\n", "*NODE\n1, 0., 2.\n2, 1., 2., 1e-8\n"})
+   {
+      write_whole("m.inp", nodes);
+      expect_input_error([&] { read_stiffness("m.sti"); }, "must be in one plane z = const");
+   }
    NodalStiffness twisting = lower_lap();
    twisting.formulation = Formulation::torsion;
    expect_input_error([&] { twisting.validate(); }, "it is of torsion");
@@ -920,7 +930,11 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
    for (const Mistake &m : std::vector<Mistake>{
            {"", "", "there is no *NODE"},
            {"", "*NODE\n1, 0.\n", "line 2: *NODE has 2 fields"},
-           {"", "*NODE\n1, 0., 0., 3.\n", "node 1 is at z = 3, must be in the plane z = 0"},
+           {"", "*NODE\n1, 0., 0., 3.\n2, 1., 0.\n",
+            "node 2 is at z = 0, the first one at 3, all must be in one plane"},
+           {"", "*NODE\n1, 0., 0.\n*NGEN\n1, 5\n", "*NGEN makes or moves nodes"},
+           {"", "*NODE, INPUT=nodes.txt\n", "*NODE has its lines in a file of its own"},
+           {"", "*NODE, SYSTEM=C\n1, 0., 0.\n", "cylindrical coordinates"},
            {"", "*NODE\n1, 0., 0.\n1, 0., 0.\n", "line 3: node 1 is there a second time"},
            {"", "*NODE\n1, 0., 0.\n*ELEMENT, TYPE=CPE4\n1, 1, 2, 3, 4\n",
             "element 1 has node 2"},
@@ -944,8 +958,14 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
             "'BOUNDARY1' moves node 2"},
            {"", "*INCLUDE, INPUT=m.inp\n", "more than 10 deep"},
            {"", "*INCLUDE\n", "*INCLUDE has no INPUT"},
-           {"", "*PART, NAME=A\n*END PART\n*PART, NAME=B\n", "a second *PART begins"},
-           {"", "*INSTANCE, NAME=A, PART=B\n1., 0., 0.\n", "an instance is moved"}})
+           {"", "*PART, NAME=A\n*NODE\n1, 0., 0.\n*PART, NAME=B\n*NODE\n1, 0., 0.\n",
+            "has 2 parts, A, B"},
+           {"", "*PART, NAME=A\n*PART, NAME=A\n", "*PART 'A' is there a second time"},
+           {"",
+            "*PART, NAME=A\n*NODE\n1, 0., 0.\n*END PART\n*INSTANCE, NAME=A-1, PART=A\n"
+            "*INSTANCE, NAME=A-2, PART=A\n",
+            "a second *INSTANCE begins"},
+           {"", "*INSTANCE, NAME=A, PART=B\n1., 0., 0.\n", "is of the part 'B', which must"}})
    {
       write_whole("m.inp", m.content);
       expect_input_error([&] { read_stiffness("m.sti"); }, m.says);
@@ -957,6 +977,24 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
    expect_input_error([&] { read_stiffness("m.sti"); }, "entry (2, 2), must be within 1×1");
    std::filesystem::remove("m.dof");
    expect_input_error([&] { read_stiffness("m.sti"); }, "cannot read file 'm.dof'");
+}
+
+/// ABAQUS writes the matrices of job.inp into job_STIF1.mtx, job_STIF2.mtx, …
+TEST_F(Exchange, ADeckAndItsMatrixFindEachOther)
+{
+   write_whole("job.inp", "*NODE\n1, 0., 2.\n2, 1., 2.\n");
+   write_whole("job_STIF2.mtx", "1,1,1,1,1.\n1,2,1,2,2.\n2,1,2,1,3.\n2,2,2,2,4.\n");
+   EXPECT_EQ(read_stiffness("job_STIF2.mtx").places.at(2), Eigen::Vector2d(1, 2));
+   // The second matrix is not that of the deck's only step.
+   expect_input_error([] { matrix_of_deck("job.inp"); }, "there are 0 stiffnesses beside it");
+   std::filesystem::copy("job_STIF2.mtx", "job_STIF1.mtx");
+   EXPECT_EQ(matrix_of_deck("job.inp"), "job_STIF1.mtx");
+   write_whole("job.sti", "1 1 1.\n");
+   expect_input_error([] { matrix_of_deck("job.inp"); },
+                      "there are 2 stiffnesses, job.sti, job_STIF1.mtx");
+   expect_input_error([] { matrix_of_deck("none.inp"); }, "cannot read file 'none.inp'");
+   expect_input_error([] { matrix_of_deck("job.sti"); }, "must end with .inp");
+   expect_input_error([] { read_stiffness("none_STIF1.mtx"); }, "none_STIF1.mtx");
 }
 
 /// Whatever becomes of a file, it is read or refused.

@@ -55,7 +55,7 @@ LoadHistory swings(double amplitude, int cycles)
 MarchSettings exactly()
 {
    MarchSettings settings;
-   settings.stepping = Stepping::exact;
+   settings.every_event = true;
    return settings;
 }
 

@@ -121,6 +121,7 @@ TEST(March, OneBlockCycleInClosedForm)
    const ReducedProblem problem = one_block(0.4);
    ContactState state = ContactState::virgin(problem);
    MarchSettings settings;
+   settings.stepping = Stepping::fixed;
    settings.increments = 7;
    const MarchReport report = march(problem, press_then_shear(1.0, 20), state, settings);
    EXPECT_EQ(report.status, FrictionStatus::converged);
@@ -532,14 +533,16 @@ TEST(March, EnergyBalancesOnRandomProblems)
       problem.patterns[1].control = Control::displacement;
       problem.H = Eigen::Matrix2d{{1.3, 0.4}, {-0.4, 2.1}};
       ContactState state = ContactState::virgin(problem);
-      const MarchReport report = march(problem, press_then_shear(0.7, 3), state);
+      MarchSettings settings;
+      settings.stepping = Stepping::fixed;
+      const MarchReport report = march(problem, press_then_shear(0.7, 3), state, settings);
       ASSERT_EQ(report.status, FrictionStatus::converged);
       // What increments miss goes to zero with them; the exact path misses nothing.
       for (const bool exact : {false, true})
       {
          MarchSettings finer;
          finer.increments = 160;
-         if (exact) { finer.stepping = Stepping::exact; }
+         finer.stepping = exact ? Stepping::exact : Stepping::fixed;
          ContactState again = ContactState::virgin(problem);
          const double left =
             march(problem, press_then_shear(0.7, 3), again, finer).energy_imbalance;
@@ -564,11 +567,11 @@ struct TwoMarches
 };
 
 TwoMarches march_twice(const ReducedProblem &problem, const LoadHistory &history,
-                       int increments, Stepping stepping)
+                       int increments)
 {
    TwoMarches two;
    MarchSettings settings;
-   settings.stepping = stepping;
+   settings.stepping = Stepping::fixed;
    settings.increments = increments;
    settings.loss_error = true;
    ContactState state = ContactState::virgin(problem);
@@ -602,14 +605,13 @@ TEST(March, LossErrorCoversWhatIncrementsDoToTheLoss)
    {
       const ReducedProblem problem = random_problem(3 + k % 6, 0.1 + 0.002 * k, 0.1, random);
       const LoadHistory history = press_then_shear(0.4 + 0.01 * (k % 50), 1 + k % 3);
-      const Stepping stepping = k % 2 ? Stepping::fixed : Stepping::advancing;
       ContactState trial = ContactState::virgin(problem);
       MarchSettings exactly;
       exactly.stepping = Stepping::exact;
       const MarchReport path = march(problem, history, trial, exactly);
       if (path.status != FrictionStatus::converged || path.fallbacks > 0) { continue; }
       ++marched;
-      const TwoMarches two = march_twice(problem, history, 3 + k % 20, stepping);
+      const TwoMarches two = march_twice(problem, history, 3 + k % 20);
       const double apart = std::abs(two.lost - two.exact_lost);
       const double round_off = 1e-11 * (two.lost + two.exact_lost);
       EXPECT_TRUE(two.error.bound) << two.error.by;
@@ -814,6 +816,7 @@ TEST(March, CutInTwoGivesTheSameBits)
    const ReducedProblem problem = random_problem(12, 0.3, 0.1, random);
    const LoadHistory history = press_then_shear(0.8, 4);
    MarchSettings settings;
+   settings.stepping = Stepping::fixed;
    settings.increments = 9;
    ContactState whole = ContactState::virgin(problem);
    std::vector<ContactState> passed;
@@ -893,7 +896,7 @@ TEST(March, WhatAFreeBodySlipsBeforeItSlidesOffIsDecidedByItsLastStick)
    problem.H = MatrixXd::Zero(2, 2);
    problem.gap = Vector2d::Zero();
    set_friction(problem, 0.5);
-   for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   for (const Stepping stepping : {Stepping::fixed, Stepping::exact})
    {
       // Also at the limit itself, and beyond it by less than its forces are known to.
       for (const double peak : {0.8 * (1 - 1e-15), 0.8, 0.8 * (1 + 1e-12), 0.9, 1.0, 1.6, 7.0})
@@ -965,7 +968,7 @@ TEST(March, WhatFreeBodiesSlipBeforeTheySlideOffDoesNotDependOnTheSteps)
       for (const double peak :
            {limit * (1 - 1e-12), limit, limit * (1 + 1e-12), limit * (1 + 1e-10), 3.0})
       {
-         for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+         for (const Stepping stepping : {Stepping::fixed, Stepping::exact})
          {
             ContactState state = ContactState::virgin(problem);
             const MarchReport report = shear(peak, stepping, state);
@@ -1091,10 +1094,11 @@ TEST(March, AWedgePulledFreeIsFollowedToItsLastLoadAndNotBisected)
    const double f = 0.6, a = 0.2, s = std::sin(a), c = std::cos(a);
    const ReducedProblem problem = rigid_wedge(f, a);
    const double N = 1 / (s + f * c), y = -2 * f * N / (c + f * s);
-   for (Stepping stepping : {Stepping::advancing, Stepping::exact})
+   for (const bool every_event : {false, true})
    {
       MarchSettings settings;
-      settings.stepping = stepping;
+      settings.stepping = Stepping::exact;
+      settings.every_event = every_event;
       ContactState state = ContactState::virgin(problem);
       const MarchReport report =
          march(problem,
@@ -1113,7 +1117,7 @@ TEST(March, AWedgePulledFreeIsFollowedToItsLastLoadAndNotBisected)
 TEST(March, AWedgePulledFromRestIsTriedOnce)
 {
    const ReducedProblem problem = rigid_wedge(0.6, 0.2);
-   for (Stepping stepping : {Stepping::fixed, Stepping::advancing})
+   for (Stepping stepping : {Stepping::fixed, Stepping::exact})
    {
       for (const bool once : {true, false})
       {
@@ -1135,7 +1139,7 @@ TEST(March, AWedgePulledFromRestIsTriedOnce)
 TEST(March, LoadsThatAreHeldChangeNothing)
 {
    const ReducedProblem problem = one_block(0.4);
-   for (Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   for (Stepping stepping : {Stepping::fixed, Stepping::exact})
    {
       MarchSettings settings;
       settings.stepping = stepping;
@@ -1146,9 +1150,11 @@ TEST(March, LoadsThatAreHeldChangeNothing)
             settings);
       EXPECT_EQ(slid.status[0], NodeState::backward_slip);
       EXPECT_EQ(held.status, slid.status);
-      EXPECT_EQ(held.v, slid.v);
+      // Stops of a path are at shares of its time, which is another one.
+      const double round_off = stepping == Stepping::exact ? 1e-15 : 0;
+      EXPECT_NEAR(held.v[0], slid.v[0], round_off);
       EXPECT_EQ(held.slip_origin, slid.slip_origin);
-      EXPECT_EQ(held.dissipation, slid.dissipation);
+      EXPECT_NEAR(held.dissipation, slid.dissipation, round_off);
       EXPECT_EQ(held.time, 4);
    }
 }
@@ -1179,9 +1185,10 @@ TEST(March, AnErrorOfAdvancingContactIsStatedHoweverItIsCut)
             << gap << ' ' << increments;
          // No more than four times all that a node can have gained in one of them.
          EXPECT_LE(report.advance_error * state.peak_force, 1.2 / increments + 1e-14);
-         for (Stepping stepping : {Stepping::advancing, Stepping::exact})
+         for (const bool every_event : {false, true})
          {
-            settings.stepping = stepping;
+            settings.stepping = Stepping::exact;
+            settings.every_event = every_event;
             state = ContactState::virgin(problem);
             report = march(problem, history, state, settings);
             EXPECT_EQ(report.advance_error, 0);
@@ -1218,12 +1225,13 @@ TEST(March, APadThatRocksUntilItTouchesHasHadNoFrictionThere)
       set_friction(problem, friction);
       const double side = (1 - gap) / 3;
       const Eigen::Vector3d p(side, 1 - 2 * side, side);
-      for (Stepping stepping : {Stepping::advancing, Stepping::exact})
+      for (const bool every_event : {false, true})
       {
          for (int increments : {1, 2, 3, 4, 7, 20, 50, 101})
          {
             MarchSettings settings;
-            settings.stepping = stepping;
+            settings.stepping = Stepping::exact;
+            settings.every_event = every_event;
             settings.increments = increments;
             ContactState state = ContactState::virgin(problem);
             const MarchReport report =
@@ -1466,7 +1474,7 @@ TEST(March, RemembersTheLargestForceWhereverItIsLess)
    const ReducedProblem problem = one_block(0.5);
    const LoadHistory history = LoadHistory::through(
       {Vector2d(0, 0), Vector2d(1, 0.2), Vector2d(0.5, 0.1), Vector2d(0.25, 0.05)});
-   for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   for (const Stepping stepping : {Stepping::fixed, Stepping::exact})
    {
       MarchSettings settings;
       settings.stepping = stepping;
@@ -1508,7 +1516,25 @@ TEST(LoadHistory, LoadsHaveNames)
    const LoadHistory history = LoadHistory::through(
       problem, {{}, {{"weight", 2}}, {{"a push", 0.5}, {"weight", 1}}, {{"a push", -0.5}}});
    EXPECT_EQ(history.times, Eigen::Vector4d(0, 1, 2, 3));
-   EXPECT_EQ(history.multipliers, (MatrixXd{{0, 2, 1, 0}, {0, 0, 0.5, -0.5}}));
+   // A load that a point does not name keeps its value.
+   EXPECT_EQ(history.multipliers, (MatrixXd{{0, 2, 1, 1}, {0, 0, 0.5, -0.5}}));
+   EXPECT_EQ(history.cycle_start, -1);
+   const LoadHistory cyclic = LoadHistory::through(
+      problem, {{}, {{"weight", 2}}, {{"a push", 0.5}}, {{"a push", 0}}}, 1, 3);
+   EXPECT_EQ(cyclic.multipliers, (MatrixXd{{0, 2, 2, 2}, {0, 0, 0.5, 0}}));
+   EXPECT_EQ(cyclic.cycle_start, 1);
+   EXPECT_EQ(cyclic.cycles, 3);
+   EXPECT_EQ(cyclic.pieces(), 7);
+   expect_input_error(
+      [&] {
+         LoadHistory::through(problem, {{}, {{"weight", 2}}, {{"a push", 0.5}}}, 1, 3);
+      },
+      "load history: load 'a push' is 0.5 at the end of the cycle and 0 at its start");
+   expect_input_error(
+      [&] {
+         LoadHistory::through(problem, {{}, {{"weight", NAN}}});
+      },
+      "load history: load 'weight' is nan at point 1, must be finite");
    expect_input_error(
       [&] {
          problem.multipliers({{"wait", 2}});

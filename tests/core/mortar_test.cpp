@@ -397,6 +397,69 @@ TEST(Mortar, OfConcentricArcsConvergesToTheClearance)
    }
 }
 
+/// Two arcs of one circle whose edges do not match, on chords or with nodes on the circle: the
+/// gap is zero, to round-off, whatever the lengths of the edges; with a clearance it is that,
+/// but for its mean over normals that turn along an element.
+TEST(Mortar, OfArcsOfOneCircleHasNoGap)
+{
+   std::mt19937 random(11);
+   const auto arc = [&](double radius, double from, double to, int edges, int order, bool moved)
+   {
+      const std::vector<double> grid = random_grid(from, to, edges, random);
+      const auto place = [=](double angle)
+      { return Vector2d(radius * std::cos(angle), radius * std::sin(angle)); };
+      const auto bend = [=](double one, double two) // half of the angle, in a hole negative
+      {
+         const double half = 0.5 * std::abs(two - one) * (from < to ? 1 : -1);
+         return EdgeBend{half, half};
+      };
+      const auto on_edges = [=](double angle)
+      {
+         const auto next =
+            std::find_if(grid.begin() + 1, grid.end() - 1,
+                         [&](double end) { return (end - angle) * (to - from) >= 0; });
+         const double begin = *(next - 1), end = *next, s = (angle - begin) / (end - begin);
+         const Vector2d a = place(begin), chord = place(end) - a;
+         const double off = moved ? bend(begin, end).off(s) : 0;
+         return Vector2d(a + s * chord + off * Vector2d(chord[1], -chord[0]));
+      };
+      ContactLine line = line_along(on_edges, grid, order);
+      for (std::size_t e = 0; e + 1 < grid.size(); ++e)
+      {
+         line.chains[0].elements[e].bend = bend(grid[e], grid[e + 1]);
+      }
+      return line;
+   };
+   for (int order = 1; order <= 3; ++order)
+   {
+      for (bool moved : {false, true})
+      {
+         for (double clearance : {0.0, 1e-3})
+         {
+            const ContactLine disc = arc(1, 0.1, 1.5, 11, order, moved),
+                              hole = arc(1 + clearance, 1.5, 0.1, 7, order, moved);
+            // A row sees two elements, over which normals turn by no more than that.
+            double turn = 0;
+            for (const ContactLine *line : {&disc, &hole})
+            {
+               for (const LineElement &element : line->chains[0].elements)
+               {
+                  turn = std::max(turn, 4 * std::abs(element.bend->begin));
+               }
+            }
+            for (bool swapped : {false, true})
+            {
+               const Mortar found = swapped ? mortar(hole, disc) : mortar(disc, hole);
+               EXPECT_LT((found.gap.array() - clearance).abs().maxCoeff(),
+                         clearance * turn * turn + 1e-13)
+                  << order << moved << swapped;
+               EXPECT_LT(found.arm.cwiseAbs().maxCoeff(), clearance * turn + 1e-13);
+            }
+         }
+      }
+   }
+}
+
 /// Two discs side by side: the gap between them, at the height y of the point between,
 /// √(R² - y²) away from each middle, does not depend on which is the slave.
 TEST(Mortar, OfTwoDiscsHasTheGapBetweenThem)

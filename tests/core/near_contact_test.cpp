@@ -101,6 +101,7 @@ MarchSettings settings_of(Stepping stepping)
    MarchSettings settings;
    settings.stepping = stepping;
    settings.increments = 10;
+   settings.every_event = true;
    return settings;
 }
 
@@ -228,8 +229,8 @@ TEST(NearContact, MarchIsTakenUpToTheLastBit)
 {
    const ReducedProblem problem = Cylinder(301).pressed();
    const LoadHistory history = to_and_fro(0.7);
-   for (const Stepping stepping : {Stepping::fixed, Stepping::advancing})
    {
+      const Stepping stepping = Stepping::fixed;
       std::vector<ContactState> states;
       const auto keep = [&](const ContactState &state, const IncrementRecord &increment)
       {

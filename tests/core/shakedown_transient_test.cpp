@@ -175,7 +175,7 @@ TEST(Transient, SlipThatLosesNextToNothingGoesOn)
    FrictionSolver solver(problem);
    for (const double e : {1e-7, 1e-5, 1e-3, 1e-1})
    {
-      for (const Stepping stepping : {Stepping::advancing, Stepping::exact})
+      for (const Stepping stepping : {Stepping::fixed, Stepping::exact})
       {
          TransientSettings settings;
          settings.march.stepping = stepping;
@@ -356,7 +356,7 @@ TEST(Transient, ANodeThatOpensAtFirstOnlyIsNotSaidToOpen)
    set_friction(problem, 1);
    FrictionSolver solver(problem);
    const LimitProblem limit = limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1));
-   for (const Stepping stepping : {Stepping::advancing, Stepping::exact})
+   for (const Stepping stepping : {Stepping::fixed, Stepping::exact})
    {
       TransientSettings settings;
       settings.march.stepping = stepping;

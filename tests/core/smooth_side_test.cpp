@@ -348,6 +348,170 @@ TEST(SmoothSide, LeavesPolygons)
    EXPECT_EQ(largest_bend(facets), 0);
 }
 
+std::vector<double> joined(const std::vector<std::vector<double>> &parts)
+{
+   std::vector<double> all;
+   for (const std::vector<double> &part : parts)
+   {
+      all.insert(all.end(), part.begin(), part.end());
+   }
+   return all;
+}
+
+/// An arc of nine edges beside facets of three edges, chamfers of two or a serration, in a file
+/// that knows nothing: it is an arc, and the others are what they are.
+TEST(SmoothSide, ArcsAreSuchBesideFacetsAndChamfers)
+{
+   const std::vector<double> arc(8, 6);
+   std::vector<double> facets, serration{12};
+   for (int k = 0; k < 8; ++k)
+   {
+      facets.insert(facets.end(), {0, 0, 15});
+      serration.insert(serration.end(), {-24, 24});
+   }
+   const std::vector<double> chamfer{0, 0, 20, 20, 0, 0};
+   const std::vector<std::vector<double>> others{facets, chamfer, joined({chamfer, chamfer})};
+   for (const std::vector<double> &other : others)
+   {
+      // A corner between both.
+      const SidePolygon side{walk(joined({other, {-25}, arc, {-25}, other}))};
+      const std::vector<EdgeBend> bends = smooth_curve(side);
+      for (std::size_t e = 0; e < bends.size(); ++e)
+      {
+         const bool of_arc = e > other.size() && e < other.size() + 10;
+         EXPECT_NEAR(bends[e].begin, of_arc ? 3 * degree : 0, 1e-9) << e;
+         EXPECT_NEAR(bends[e].end, of_arc ? 3 * degree : 0, 1e-9) << e;
+      }
+   }
+   // Beside a serration the arc may be a part of a profile: it is one, or is said to be
+   // possible.
+   const SidePolygon side{walk(joined({serration, {-6}, arc}))};
+   const std::vector<EdgeBend> bends = smooth_curve(side), possible = possible_curve(side);
+   for (std::size_t e = bends.size() - 7; e < bends.size(); ++e)
+   {
+      EXPECT_NEAR(std::max(bends[e].begin, possible[e].begin), 3 * degree, 1e-9) << e;
+   }
+}
+
+/// A slightly crowned side between chamfers of a hundred and more times its turns.
+TEST(SmoothSide, CrownsAreCurvesBesideChamfers)
+{
+   for (double crown : {1e-3, 0.02, 0.1})
+   {
+      for (const std::vector<double> &chamfer :
+           {std::vector<double>{0, 0, 20}, std::vector<double>{0, 15, 15}})
+      {
+         std::vector<double> back = chamfer;
+         std::reverse(back.begin(), back.end());
+         for (bool known : {false, true})
+         {
+            SidePolygon side{walk(joined({chamfer, std::vector<double>(8, crown), back}))};
+            const std::size_t first = chamfer.size(), count = side.vertices.size() - 1;
+            for (std::size_t e = 0; e < count && known; ++e)
+            {
+               side.curves.push_back(e < first ? 1 : e < first + 9 ? 2 : 3);
+            }
+            const std::vector<EdgeBend> bends = smooth_curve(side);
+            for (std::size_t e = 0; e < count; ++e)
+            {
+               const bool of_crown = e >= first && e < first + 9;
+               EXPECT_NEAR(bends[e].begin, of_crown ? crown / 2 * degree : 0, 1e-9) << e;
+               EXPECT_NEAR(bends[e].end, of_crown ? crown / 2 * degree : 0, 1e-9) << e;
+            }
+         }
+      }
+   }
+}
+
+/// A side that meets the next one at another angle than 90 degrees has no mirror image there,
+/// however near that is: neither a flank, whose arc its file knows, nor an arc.
+TEST(SmoothSide, EndsWhereItMeetsNoMirrorImage)
+{
+   for (double off : {-15.0, -5.0, -1.0, -0.01, 0.0, 0.01, 1.0, 5.0, 15.0})
+   {
+      for (bool of_one_curve : {false, true})
+      {
+         SidePolygon fillet{walk({0, 10, 20, 10, 0})};
+         fillet.curves = {1, 1, 2, 2, 3, 3};
+         if (of_one_curve) { fillet.curves.assign(6, 7); }
+         const std::vector<EdgeBend> alone = smooth_curve(fillet);
+         const double end = (40 + 90 + off) * degree, begin = (90 + off) * degree;
+         fillet.beyond = {Vector2d(std::cos(begin), std::sin(begin)),
+                          Vector2d(std::cos(end), std::sin(end))};
+         const std::vector<EdgeBend> bends = smooth_curve(fillet);
+         for (std::size_t e = 0; e < bends.size(); ++e)
+         {
+            EXPECT_NEAR(bends[e].begin, alone[e].begin, 1e-9) << off << e;
+            EXPECT_NEAR(bends[e].end, alone[e].end, 1e-9) << off << e;
+         }
+      }
+      SidePolygon arc{walk(std::vector<double>(8, 5))};
+      const double end = (40 + 2.5 + 90 + off) * degree;
+      arc.beyond[1] = Vector2d(std::cos(end), std::sin(end));
+      // A plane is one to a hundredth of a degree: its image then meets at twice that.
+      const double allowed = 1e-9 + (std::abs(off) < 0.1 ? 1.01 * std::abs(off) * degree : 0);
+      for (const EdgeBend &bend : smooth_curve(arc))
+      {
+         EXPECT_NEAR(bend.begin, 2.5 * degree, allowed) << off;
+         EXPECT_NEAR(bend.end, 2.5 * degree, allowed) << off;
+      }
+   }
+}
+
+/// Three edges that turn alike are kept a polygon, and may be an arc; a chamfer, facets and a
+/// corner may not.
+TEST(SmoothSide, TellsWhichPolygonsMayBeArcs)
+{
+   const auto largest = [](const SidePolygon &side)
+   {
+      double most = 0;
+      for (const EdgeBend &bend : possible_curve(side))
+      {
+         most = std::max({most, std::abs(bend.begin), std::abs(bend.end)});
+      }
+      return most / degree;
+   };
+   EXPECT_NEAR(largest({walk({12, 12})}), 6, 1e-9);
+   EXPECT_NEAR(largest({walk({0, 0, 60, 10, 10, 60, 0, 0})}), 5, 1e-9);
+   EXPECT_EQ(largest({walk({0, 0, 20, 20, 0, 0})}), 0);
+   EXPECT_EQ(largest({walk({0, 0, 20, 0, 0})}), 0);
+   EXPECT_EQ(largest({walk({0, 0, 15, 0, 0, 15, 0, 0, 15, 0, 0})}), 0);
+   EXPECT_EQ(largest({walk({5, 5, 5, 5, 5, 5})}), 0); // an arc
+}
+
+/// Heights of points at random are a profile: of a thousand, in all of which nothing is curved.
+TEST(SmoothSide, LeavesProfilesOfAnyHeights)
+{
+   std::mt19937 random(17);
+   std::uniform_real_distribution<double> any(-1, 1);
+   int curved = 0;
+   for (int k = 0; k < 1000; ++k)
+   {
+      SidePolygon side;
+      double walked = 0;
+      for (int i = 0; i < 60; ++i)
+      {
+         walked += 0.03 * any(random);
+         side.vertices.emplace_back(i, k % 2 == 0 ? walked : 0.05 * any(random));
+      }
+      curved += largest_bend(side) > 0;
+   }
+   EXPECT_EQ(curved, 0);
+}
+
+/// The direction of a curve is that of its places.
+TEST(SmoothSide, SlopesAreOfTheCurve)
+{
+   for (const EdgeBend &bend : {EdgeBend{0.1, 0.1}, EdgeBend{-0.3, 0.2}, EdgeBend{0.5, 0.45}})
+   {
+      for (double s : {0.0, 0.1, 0.5, 0.8, 1.0})
+      {
+         const double h = 1e-5;
+         EXPECT_NEAR(bend.slope(s), (bend.off(s + h) - bend.off(s - h)) / (2 * h), 1e-9);
+      }
+   }
+}
+
 /// Real corners between arcs stay corners: each arc is one to its end.
 TEST(SmoothSide, KeepsCorners)
 {

@@ -409,12 +409,11 @@ TEST(Wear, CyclesFromNoLoadsGoOnFromTheirStates)
    const Pad pad = small_pad();
    const ReducedProblem &problem = pad.problem;
    const WearLaw law = WearLaw::uniform(problem, 1e-2);
-   LoadHistory whole = LoadHistory::through(
-      problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", 0.3}}, {{"P", 0.9}, {"Q", 0.1}}, {}});
-   whole.cycle_start = 0;
-   LoadHistory opened = LoadHistory::through(
-      problem, {{}, {}, {{"P", 1}}, {{"P", 1}, {"Q", 0.3}}, {{"P", 0.9}, {"Q", 0.1}}, {}});
-   opened.cycle_start = 1;
+   const NamedLoads none = {{"P", 0}, {"Q", 0}}, least = {{"P", 0.9}, {"Q", 0.1}};
+   const LoadHistory whole = LoadHistory::through(
+                        problem, {none, {{"P", 1}}, {{"Q", 0.3}}, least, none}, 0),
+                     opened = LoadHistory::through(
+                        problem, {none, none, {{"P", 1}}, {{"Q", 0.3}}, least, none}, 1);
    VectorXd depth;
    for (const LoadHistory &history : {whole, opened})
    {
@@ -756,15 +755,15 @@ TEST(Wear, ErrorsOfJumpsThatGrowAreCounted)
 }
 
 // In the worn-out contact what slips touches without force, and opens and closes by round-off:
-// no increment is cut for that, however long it goes on.
+// no increment is cut for that, however long it goes on. (With two tangential components; in
+// the plane nothing is cut.)
 TEST(Wear, WhatTouchesWithoutForceCutsNoIncrement)
 {
    const Pad pad = small_pad();
-   WearState state = WearState::virgin(pad.problem);
-   WearSettings settings = settings_with(0);
-   settings.march.stepping = Stepping::advancing;
-   const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, 0.05), pad.history,
-                                  1500, state, settings);
+   const ReducedProblem disc = cattaneo_test::as_disc(pad.problem);
+   WearState state = WearState::virgin(disc);
+   const WearReport report =
+      wear(disc, WearLaw::uniform(disc, 0.05), pad.history, 1500, state, settings_with(0));
    EXPECT_EQ(report.status, FrictionStatus::converged);
    const WornOut end =
       worn_out(pad.problem, pad.history, ContactState::virgin(pad.problem), one_increment());

@@ -127,7 +127,7 @@ def seeds(programs):
                                   "load": ["P pressure 3 1", "Q traction 3 1 0", "Q pressure 3 -2*x+3"]}},
              "interfaces": {"floor": {"between": "block:1", "friction": 0.3}},
              "history": ["P=0", "P=1", "Q=0.1", "Q=-0.1", "Q=0"], "cycle-start": 1, "cycles": 2, "increments": 3,
-             "order": 2, "stepping": "advancing"}
+             "order": 2, "stepping": "fixed"}
     pair = {"version": 2,
             "bodies": {"upper": {"mesh": "upper.msh", "young": [2.0], "poisson": 0.2, "support": "@1.5,1:x",
                                  "load": "P pressure 3[0.5<x<2.5] 1; Q displacement-x 3 0.1"},

@@ -128,12 +128,16 @@ def copy_sources(edits):
 
 
 def configure(options):
-    if not os.path.exists(os.path.join(BUILD, "build.ninja")):
+    # Tests that start programs are pytest's; ./test --mutation brings it.
+    pytest = [] if CORE else ["-DCATTANEO_PYTEST=" + os.path.join(ROOT, "build", "deps", "python", "bin", "python")]
+    cache = os.path.join(BUILD, "CMakeCache.txt")
+    known = open(cache).read() if os.path.exists(cache) else ""
+    if not os.path.exists(os.path.join(BUILD, "build.ninja")) or any(option[2:].split("=")[1] not in known for option in pytest):
         say("configuring")
         command = ["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                    "-DCATTANEO_BENCHMARKS=OFF", "-DCMAKE_UNITY_BUILD=ON",
                    "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"]
-        command.append("-DCATTANEO_MFEM=OFF" if CORE else "-DMFEM_DIR=" + options.mfem)
+        command += ["-DCATTANEO_MFEM=OFF" if CORE else "-DMFEM_DIR=" + options.mfem, *pytest]
         if shutil.which("ccache"):
             command.append("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache")
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -256,6 +260,7 @@ def instrument(options, arguments, order):
             rest = [kind + "_rest_tests" for kind in options.kinds.split(",")]
             targets += [t for t in rest if f"\nbuild {t}: " in open(os.path.join(BUILD, "build.ninja")).read()]
             targets += ["campaign"] if "stress" in options.kinds else []
+            targets += ["miniapps"] if "study" in options.kinds else []  # which pytest runs
             with open(log, "w") as out:
                 failed = subprocess.run(["ninja", "-C", BUILD, "-k", "0", "-j", str(options.jobs), *targets], stdout=out,
                                         stderr=subprocess.STDOUT).returncode

@@ -5,7 +5,8 @@ import math
 
 import pytest
 
-from programs import ROOT, changed, curved, even, mesh_text, near, rectangle, shipped, to_ends
+from programs import (ROOT, changed, curved, even, graded, graded_to_ends, half_plane, mesh_text, near, near_relative, quadratic,
+                      rectangle, shipped, straight, to_ends)
 
 
 def block(mesh, load="P pressure 3 1", **keys):
@@ -282,7 +283,7 @@ MISTAKES = [
     ({}, ["--order", 0], ["order", "0", "1 to 8"]),
     ({}, ["--increments", 0], ["increments", "0", "at least 1"]),
     ({FLOOR + "gap": "wide"}, [], ["floor.gap'", "wide", "geometry, closed"]),
-    ({}, ["--stepping", "fast"], ["stepping", "fast", "advancing, fixed"]),
+    ({}, ["--stepping", "fast"], ["stepping", "fast", "exact, fixed"]),
     ({SUPPORT: "3:xy"}, [], ["contact dofs are fixed", "one at least must be free"]),
     ({SUPPORT: "2"}, [], ["bodies.pad.support' '2'", "must be"]),
     ({SUPPORT: "2:z"}, [], ["bodies.pad.support' '2:z'", "x, y or xy"]),
@@ -633,3 +634,142 @@ def test_warns_of_a_line_that_is_named_too_short(run):
     assert "at (1, 0)" in last
     assert "warning: " + first in part.output
     assert run.case(case)["warnings"] == []
+
+
+def test_edges_of_a_hertz_contact_have_the_closed_forms(run):
+    """On a block that stands for a half-plane."""
+    hertz_contact(run, meshed=True)
+
+
+@pytest.mark.rest
+def test_edges_of_a_hertz_contact_on_a_half_plane_have_the_closed_forms(run):
+    """On a half-plane without a mesh, of 481 contact nodes."""
+    hertz_contact(run, meshed=False)
+
+
+def hertz_contact(run, meshed):
+    """Edges of a cylinder of radius 100 that touches a half-plane over |x| < 1, E* = 1/2."""
+    radius, friction, share, modulus = 100, 0.5, 0.3, 0.5
+    P = math.pi * modulus / (4 * radius)
+    peak, k_n, k_t = 2 * P / math.pi, P / math.pi * math.sqrt(8), share * friction * P / (math.pi * math.sqrt(2))
+    # The sheet: the slip zone is underestimated by this factor.
+    factor = 0.5 * (1 + math.sqrt(1 - share))
+    # Of one edge, and the near edge's prediction of it.
+    energy = 2 * (friction * P) ** 2 / (math.pi * modulus) * ((1 - share) * math.log(1 - share) + share - share**2 / 2)
+    predicted = math.pi / 3 * (2 * k_t) ** 3 / (friction * k_n * modulus) / energy
+    # A block that stands for a half-plane has a remote tension of the order of Q/domain, which K_T feels, unless the other body has
+    # the same. Equal blocks have no coupling at all; that of unlike discretisations is of their error.
+    domain, line = (1e3, graded_to_ends(1.67, 80, 1)) if meshed else (1e5, graded_to_ends(1.67, 240, 1))
+    h = line[1] - line[0]
+    elements, boundary, vertices = half_plane(line, graded(0, 1.67, h, 1.25, 0.3), domain, 1.25)
+
+    def lifted(x, y):
+        """Turned over, and the contact candidates on the cylinder, with curved elements: facets cost K_T one per cent. And with them,
+        to less, the first layer: surfaces alone would fold its elements."""
+        x, y, layer = -x, -y, 2 * 1.67 / 80
+        return (x, y) if abs(x) > 1.67 + 1e-9 or y > layer else (x, y + x * x / 200 * (1 - y / layer))
+
+    run.write("pad.msh", quadratic(elements, boundary, vertices, lifted))
+    run.write("plane.mesh", straight(elements, boundary, vertices))
+    p, turn, similar = P / (2 * domain), -1.5 * P / domain**2, {"young": 0.91, "poisson": 0.3}
+    below = {**similar, "mesh": "plane.mesh", "support": "3:xy"} if meshed else {"half-plane": similar}
+    got = run.case({
+        "bodies": {"pad": {**similar, "mesh": "pad.msh",
+                           "load": [f"P pressure 3 {p!r}", f"Q traction 3 {p!r} 0", f"Q pressure 3 {turn!r}*x"]},
+                   "plane": below},
+        "interfaces": {"contact": {"between": ["pad:1", "plane:1" if meshed else "plane"], "friction": friction,
+                                   **({"pairing": 0.01} if meshed else {})}},
+        "history": ["P=0", "P=1", f"Q={share * friction!r}", f"Q={-share * friction!r}", "Q=0"],
+        "edges": [1, 2, 3], "cycle-start": 1, "cycles": 3 if meshed else 2,
+        # Advancing contact goes from node to node, of which the half-plane's has 481.
+        "stepping": "exact" if meshed else "fixed"})
+    assert len(got["edges"]) == 2
+    for edge in got["edges"]:
+        assert edge["complete"] is False
+        near_relative(edge["k_n"]["value"], k_n, 0.01)
+        near_relative(abs(edge["k_t"]["value"]), k_t, 0.01)
+        near_relative(edge["k_t_range"], 2 * k_t, 0.01)
+        d = edge["slip_zone"]
+        near(d, 1 - math.sqrt(1 - share), 0.2 * h)
+        near(edge["slip_zone_predicted"] / d, factor, 0.05)
+        near_relative(edge["energy"], energy, 0.03)
+        near_relative(edge["energy_predicted"] / energy, predicted, 0.05)
+    near_relative(got["peak_pressure"], peak, 0.01)
+
+
+def test_corners_have_intensities_of_their_own(run):
+    """A square block on a similar one, bonded by friction, and on a rigid line."""
+    x = graded_to_ends(1, 60, 0.02)
+    step = x[1] - x[0]
+    run.write("block.mesh", rectangle(x, graded(0, 2, step, 1.3, 0.2)))
+    run.write("plane.mesh", straight(*half_plane(x, graded(0, 1, step, 1.3, 0.2), 1e3, 1.3)))
+    similar = {"young": 0.91, "poisson": 0.3}
+
+    def on(below=None):
+        """Edges of the block on another body, or on a rigid line."""
+        case = {"bodies": {"block": {**similar, "mesh": "block.mesh",
+                                     "load": ["P pressure 3 0.5", "Q traction 3 0.5 0", "Q pressure 3 -3*x"]}},
+                "interfaces": {"contact": {"between": ["block:1"], "friction": 3}},
+                "history": ["P=0", "P=1", "Q=0.1"], "edges": [1, 2]}
+        if below:
+            case["bodies"]["below"] = below
+            case["interfaces"]["contact"]["between"].append("below:1" if "mesh" in below else "below")
+            if "mesh" in below:
+                case["interfaces"]["contact"]["pairing"] = 1e-6
+        edges = run.case(case)["edges"]
+        assert len(edges) == 2
+        return edges
+
+    body = {**similar, "mesh": "plane.mesh", "support": "3:xy"}
+    for below in (body, {"half-plane": similar}):
+        for edge in on(below):
+            assert edge["complete"] is True
+            assert "k_n" not in edge
+            assert "corner" in edge["notes"][0]
+            for value, exponent in zip(edge["eigenvalues"], (0.544483736782, 0.908529189846), strict=True):
+                near(value, exponent, 1e-9)
+            near(edge["least_friction"], 0.543075578837, 1e-9)
+            assert edge["k_one"]["value"] > 0
+            assert edge["k_one"]["relative_error_estimate"] < 0.02
+    for edge in on():
+        exponent, = edge["eigenvalues"]
+        near(exponent, 0.7112, 1e-4)
+        assert edge["k_one"]["relative_error_estimate"] < 0.05
+    # Another material has exponents that are not known; the edge is refused all the same.
+    for edge in on({**body, "young": 2}):
+        assert "k_one" not in edge
+        assert len(edge["notes"]) == 2
+        assert "material" in edge["notes"][1]
+
+
+@pytest.mark.parametrize("obstacle, domain", [("rigid", 0), ("half-plane", 0), ("half-plane", 1e4)])
+def test_equals_the_square_punch(run, obstacle, domain):
+    """Meshes as the study makes them: on a rigid line, a half-plane and a block."""
+    x = graded_to_ends(1, 20, 0.01)
+    step, coarsest = x[1] - x[0], max(0.8 * 0.5, x[11] - x[10])
+    run.write("block.mesh", rectangle(x, graded(0, 2, step, 1.5, coarsest)))
+    similar = {"young": 0.91, "poisson": 0.3}
+    case = {"bodies": {"block": {**similar, "mesh": "block.mesh",
+                                 "load": ["P pressure 3 0.5", "Q traction 3 0.5 0", "Q pressure 3 -3*x"]}},
+            "interfaces": {"contact": {"between": ["block:1[-1<x<1]"], "friction": 0.3}},
+            "history": ["P=0", "P=1", "Q=0.24", "Q=0", "Q=-0.24", "Q=0"], "cycle-start": 1, "cycles": 3, "increments": 40}
+    face = case["interfaces"]["contact"]
+    if domain:
+        run.write("plane.mesh", straight(*half_plane(x, graded(0, 1, step, 1.5, coarsest), domain, 1.5)))
+        case["bodies"]["plane"] = {**similar, "mesh": "plane.mesh", "support": "3:xy"}
+        face["between"].append("plane:1")
+        face["pairing"] = 1e-6
+    elif obstacle == "half-plane":
+        case["bodies"]["plane"] = {"half-plane": similar}
+        face["between"].append("plane")
+    mine = run.case(case)
+    other = run("square_punch", "--nodes", 41, "--friction", 0.3, "--shear", "", "--cycles", 3, "--amplitude", 0.8,
+                "--obstacle", obstacle, "--domain", domain)
+    for key in ("dofs", "contact_nodes"):
+        assert mine[key] == other[key], key
+    for loss, expected in zip(mine["dissipation"], other["dissipation"], strict=True):
+        near_relative(loss, expected, 1e-8)
+    run.case(case, "--frames", 1, "--csv", run.folder / "punch")
+    nodes = run.columns("punch_nodes.csv")
+    near_relative(max(nodes["p"][:41]), other["peak_pressure"], 1e-8)
+    near(nodes["slip"][40], other["slip_edge"], 1e-9)

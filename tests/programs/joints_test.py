@@ -949,3 +949,50 @@ def test_of_independent_laps_are_that_of_matching_ones(run):
     assert fine > 0
     for low, high in ((6, 8), (8, 6), (6, 13)):
         assert abs(lost(low, high) - fine) <= 2 * abs(matching - fine)
+
+
+def test_of_instances_of_a_deck_are_those_of_meshes(run):
+    """One deck of a pre-processor with a part that is there twice, turned upside down the second time, with its materials,
+    contact, supports and loads: what the case says of it is what it says of two meshes. Forces of equilibrium by hand."""
+    columns, rows = 6, 3
+    nodes = [(x, y) for y in even(0, 1.5, rows) for x in even(-1, 1, columns)]
+    part = ["*NODE"] + ["%d, %.17g, %.17g" % (k + 1, *at) for k, at in enumerate(nodes)] + ["*ELEMENT, TYPE=CPS4, ELSET=ALL"]
+    for j in range(rows):
+        for i in range(columns):
+            k = 1 + i + (columns + 1) * j
+            part.append(f"{1 + i + columns * j}, {k}, {k + 1}, {k + columns + 2}, {k + columns + 1}")
+    part += ["*NSET, NSET=FACE, GENERATE", f"1, {columns + 1}", "*NSET, NSET=BACK, GENERATE",
+             f"{1 + (columns + 1) * rows}, {(columns + 1) * (rows + 1)}", "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL", "1.,"]
+    deck_of_both = ["*PART, NAME=BLOCK", *part, "*END PART", "*ASSEMBLY, NAME=A", "*INSTANCE, NAME=UPPER, PART=BLOCK", "*END INSTANCE",
+                    "*INSTANCE, NAME=LOWER, PART=BLOCK", "0., 0., 0.", "0., 0., 0., 0., 0., 1., 180.", "*END INSTANCE",
+                    "*NSET, NSET=TOP, INSTANCE=UPPER", f"{1 + (columns + 1) * rows}, ",
+                    "*SURFACE, NAME=PUSHED", "UPPER.ALL, S3", "*END ASSEMBLY", "*MATERIAL, NAME=STEEL", "*ELASTIC", "1000., 0.25",
+                    "*SURFACE INTERACTION, NAME=I", "*FRICTION", "0.9", "*CONTACT PAIR, INTERACTION=I", "A, B", "*STEP", "*STATIC",
+                    "*BOUNDARY", "TOP, 1, 2", "*DLOAD", "1, P1, 3.", "*END STEP"]
+    run.write("both.inp", "\n".join(deck_of_both).replace("UPPER.ALL, S3\n", "UPPER.%d, S3\n" % (columns * rows)) + "\n")
+    run.block("upper.mesh", -1, 1, columns, 0, 1.5, rows)
+    run.block("lower.mesh", -1, 1, columns, -1.5, 0, rows)
+    keys = {"analysis": "plane stress", "order": 1, "history": ["P=0", "P=1", "P=1 Q=1"]}
+    meshes = run.case({**keys, "bodies": {"upper": body("upper.mesh", "", ["P pressure 3 2", "Q traction 3 0.5 0"], 1000, 0.25),
+                                          "lower": body("lower.mesh", "1:xy", [], 1000, 0.25)},
+                       "interfaces": {"flat": face("upper:1", "lower:3", 0.4)}}, "--csv", run.folder / "meshes")
+    bodies = {"upper": {"mesh": "both.inp", "load": ["P pressure BACK 2", "Q traction back 0.5 0"]},
+              "below": {"mesh": "both.inp", "part": "Lower", "support": "back:xy"}}
+    decks = run.case({**keys, "bodies": bodies, "interfaces": {"flat": face("upper:FACE", "below:FACE", 0.4)}},
+                     "--csv", run.folder / "decks")
+    one, other = run.columns("meshes_nodes.csv"), run.columns("decks_nodes.csv")
+    for name in ("p", "q", "slip"):
+        alike(one[name], other[name], 1e-11 * max(map(abs, one[name])))
+    flat = decks.interface("flat")
+    near(flat["normal"], 2 * 2, 1e-11)
+    near(abs(flat["tangential"]), 0.5 * 2, 1e-11)
+    near(meshes["total_dissipation"] / decks["total_dissipation"], 1, 1e-9)
+    assert "*BOUNDARY, *CONTACT PAIR, *DLOAD, *FRICTION, *STATIC, *STEP, *SURFACE INTERACTION are passed over" in decks.warned()
+    strained = run.case({**keys, "analysis": "plane strain", "bodies": bodies,
+                         "interfaces": {"flat": face("upper:FACE", "below:FACE", 0.4)}})
+    assert "plane stress (CPS), the case computes plane strain" in strained.warned()
+    # Neither body says which one it is.
+    bodies["below"].pop("part")
+    sentence = run.refused({**keys, "bodies": bodies, "interfaces": {"flat": face("upper:FACE", "below:FACE", 0.4)}})
+    for word in ("body below (", "has 2 instances, UPPER, LOWER", "key 'part'"):
+        assert word in sentence

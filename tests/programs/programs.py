@@ -7,6 +7,7 @@ import math
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -27,9 +28,22 @@ class Run:
         assert len(found) == 1, self.output
         return found[0]
 
+    def meets(self, expected):
+        """Has the study's table these values? By quantity: a value of a source that owes the program nothing, the ± of that
+        source, and what mesh, read-out and increments of this run may add."""
+        for quantity, (value, spread, mesh) in expected.items():
+            rows = [row for row in self.results["references"] if row["quantity"] == quantity]
+            assert rows, f"no row of '{quantity}' in\n{self.output}"
+            for row in rows:
+                assert abs(row["computed"] - value) <= spread + mesh, f"{quantity} is not {value} ± {spread} ± {mesh}: {row}"
+
     def warned(self):
-        """What was warned of, a sentence a line."""
-        return "".join(sentence + "\n" for sentence in self.results["warnings"])
+        """Its warnings, a sentence a line."""
+        return self.listed("warnings")
+
+    def listed(self, key):
+        """Its warnings or notes, a sentence a line; nothing where it has none."""
+        return "".join(sentence + "\n" for sentence in self.results.get(key, []))
 
     @property
     def error(self):
@@ -47,11 +61,12 @@ class Runner:
     def __init__(self, folder, programs):
         self.folder, self.programs = folder, programs
 
-    def __call__(self, program, *words, code=0, threads=None):
-        """A run with --json; its exit code must be `code` (None: any). It computes with so many threads, if it is said."""
+    def __call__(self, program, *words, code=0, threads=None, launcher=()):
+        """A run with --json; its exit code must be `code` (None: any). It computes with so many threads, if it is said. The
+        words of a launcher go before the program."""
         file = self.folder / (program + "_results.json")
         file.unlink(missing_ok=True)
-        done = subprocess.run([self.programs / program, *map(str, words), "--json", file], cwd=ROOT, stdout=subprocess.PIPE,
+        done = subprocess.run([*launcher, self.programs / program, *map(str, words), "--json", file], cwd=ROOT, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, check=False,
                               env={**os.environ, **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), str(threads))} if threads else None)
         output = done.stdout.decode("utf-8", "replace")
@@ -59,6 +74,10 @@ class Runner:
         results = json.loads(file.read_text(encoding="utf-8")) if file.exists() else None
         file.unlink(missing_ok=True)
         return Run(done.returncode, output, results)
+
+    def line(self, text, code=0):
+        """A run of a line as it is typed into a shell: program and options, with quotes."""
+        return self(*shlex.split(text), code=code)
 
     def case(self, keys, *words, code=0, program="contact"):
         """A run of a case: a dictionary, to which its version is added, or the text of a file."""
@@ -93,9 +112,9 @@ class Runner:
         self.write(name, rectangle(even(x0, x1, nx), even(y0, y1, ny), place))
 
     def columns(self, name):
-        """Columns of a CSV table in the folder of the test; numbers where all of a column are."""
+        """Columns of a CSV table in the folder of the test, without its comments; numbers where all of a column are."""
         with open(self.folder / name, encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
+            rows = list(csv.DictReader(line for line in file if not line.startswith("# ")))
         assert rows, name
 
         def values(key):
@@ -125,6 +144,57 @@ def alike(values, others, tolerance):
     assert len(values) == len(others)
     for value, other in zip(values, others):
         near(value, other, tolerance)
+
+
+def near_relative(value, expected, share):
+    """Is it within this share of what is expected?"""
+    near(value, expected, share * abs(expected))
+
+
+def meshes(usual, finer):
+    """Meshes of a convergence test: the first ones, and the finer ones too where CATTANEO_STRESS=full asks for them."""
+    return usual + finer if in_full() else usual
+
+
+def in_full():
+    """Is everything asked for (./test --all and ./test --room)?"""
+    return os.environ.get("CATTANEO_STRESS") == "full"
+
+
+def problem(name):
+    """A reduced problem of problems/, or of a path."""
+    file = pathlib.Path(name) if "/" in str(name) else ROOT / "problems" / (name + ".json")
+    return json.loads(file.read_text(encoding="utf-8"))
+
+
+def twice(one):
+    """A reduced problem twice, side by side: both are loaded alike and know nothing of each other. Where the arc length of the
+    second begins is arbitrary."""
+    def columns(matrix):
+        values, rows = matrix["values"], matrix["rows"]
+        return [values[k:k + rows] for k in range(0, len(values), rows)]
+
+    def matrix_of(lists):
+        return {"rows": len(lists[0]), "cols": len(lists), "values": [value for column in lists for value in column]}
+
+    two, nodes = copy.deepcopy(one), one["gap"]["rows"]
+    none = [0] * nodes
+    for block in ("A", "B", "C"):
+        its = columns(one[block])
+        two[block] = matrix_of([column + none for column in its] + [none + column for column in its])
+    # Tangential components of all nodes, then normal ones.
+    motions = [(column[:nodes], column[nodes:]) for column in columns(one["rigid_motions"])]
+    two["rigid_motions"] = matrix_of([t + none + n + none for t, n in motions] + [none + t + none + n for t, n in motions])
+    for pattern, its in zip(two["patterns"], one["patterns"]):
+        for forces in ("p", "q"):
+            pattern[forces] = matrix_of([column * 2 for column in columns(its[forces])])
+    two["H"]["values"] = [2 * value for value in one["H"]["values"]]
+    for name in ("gap", "friction", "weights", "position", "dofs"):
+        two[name] = matrix_of([column * 2 for column in columns(one[name])])
+    arcs = one["arc_length"]["values"]
+    two["arc_length"] = matrix_of([arcs + [arc + 100 for arc in arcs]])
+    two["chains"].append({**one["chains"][0], "first": nodes, "interface": '"other"'})
+    return two
 
 
 def body(mesh, support=None, load=(), young=1000, poisson=0):
@@ -194,15 +264,20 @@ def to_ends(half, count, smallest):
     return left + [-x for x in reversed(left[:-1])]
 
 
-def rectangle(x, y, place=lambda x, y: (x, y), attribute=lambda i, j: 1):
-    """An MFEM mesh of quadrilaterals over places x and y, each vertex moved; boundary 1 below, 2 right, 3 above, 4 left."""
+def rectangle(x, y, place=lambda x, y: (x, y), attribute=lambda i, j: 1, split=False):
+    """An MFEM mesh of quadrilaterals (split: each of two triangles) over places x and y, each vertex moved; boundary 1 below,
+    2 right, 3 above, 4 left."""
     columns, rows = len(x) - 1, len(y) - 1
 
     def at(i, j):
         return i + j * (columns + 1)
 
-    elements = [f"{attribute(i, j)} 3 {at(i, j)} {at(i + 1, j)} {at(i + 1, j + 1)} {at(i, j + 1)}"
-                for j in range(rows) for i in range(columns)]
+    elements = []
+    for j in range(rows):
+        for i in range(columns):
+            a, b, c, d = at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)
+            shapes = [(2, a, b, c), (2, a, c, d)] if split else [(3, a, b, c, d)]
+            elements += [" ".join(map(str, (attribute(i, j), *shape))) for shape in shapes]
     boundary = [f"1 1 {at(i, 0)} {at(i + 1, 0)}" for i in range(columns)]
     boundary += [f"2 1 {at(columns, j)} {at(columns, j + 1)}" for j in range(rows)]
     boundary += [f"3 1 {at(i + 1, rows)} {at(i, rows)}" for i in range(columns)]
@@ -213,24 +288,92 @@ def rectangle(x, y, place=lambda x, y: (x, y), attribute=lambda i, j: 1):
 
 def curved(nx, ny, place):
     """A mesh in Gmsh's format of nx by ny quadrilaterals of order 2 over the unit square, all nodes moved; boundary as above."""
-    wide = 2 * nx + 1
+    x, y = even(0, 1, nx), even(0, 1, ny)
+    elements = [(i + j * (nx + 1), i + 1 + j * (nx + 1), i + 1 + (j + 1) * (nx + 1), i + (j + 1) * (nx + 1))
+                for j in range(ny) for i in range(nx)]
+    top = ny * (nx + 1)
+    boundary = [(1, i, i + 1) for i in range(nx)]
+    boundary += [(2, nx + j * (nx + 1), nx + (j + 1) * (nx + 1)) for j in range(ny)]
+    boundary += [(3, top + i + 1, top + i) for i in range(nx)] + [(4, (j + 1) * (nx + 1), j * (nx + 1)) for j in range(ny)]
+    return quadratic(elements, boundary, [(a, b) for b in y for a in x], place)
+
+
+def quadratic(elements, boundary, vertices, place):
+    """A mesh in Gmsh's format of quadrilaterals of order 2, given by four vertices each, with edges (attribute, from, to) on the
+    boundary: all nodes are moved, those between vertices from half-way between them."""
+    nodes = list(vertices)
+    between = {}
+
+    def middle(*ends):
+        key = tuple(sorted(ends))
+        if key not in between:
+            between[key] = len(nodes)
+            nodes.append(tuple(sum(nodes[k][c] for k in ends) / len(ends) for c in (0, 1)))
+        return between[key]
+
+    lines = [("8", tag, (a, b, middle(a, b))) for tag, a, b in boundary]
+    lines += [("10", 1, (a, b, c, d, middle(a, b), middle(b, c), middle(c, d), middle(d, a), middle(a, b, c, d))) for a, b, c, d in elements]
+    numbered = [f"{k} {kind} 2 {tag} {tag} " + " ".join(str(node + 1) for node in own) for k, (kind, tag, own) in enumerate(lines, 1)]
+    placed = ["%d %.17g %.17g 0" % (k, *place(*node)) for k, node in enumerate(nodes, 1)]
+    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(placed)), *placed, "$EndNodes", "$Elements",
+                      str(len(numbered)), *numbered, "$EndElements"]) + "\n"
+
+
+def graded(first, last, step, growth, largest=math.inf):
+    """Places from first to last in steps that grow up to the largest; the last ones are scaled so that they end there."""
+    steps, step = [], min(step, largest)
+    while not steps or last - first - sum(steps) > 0.5 * step:
+        steps.append(step)
+        step = min(step * growth, largest)
+    missing, k = last - first - sum(steps), len(steps)
+    while k > 0 and sum(steps[k:]) < 4 * abs(missing):
+        k -= 1
+    factor = 1 + missing / sum(steps[k:]) if k < len(steps) else 1
+    steps[k:] = [step * factor for step in steps[k:]]
+    return [first + sum(steps[:n]) for n in range(len(steps))] + [last]
+
+
+def graded_to_ends(half, count, ratio):
+    """Places of `count` elements (even) over [-half, half], in a geometric series to the ends, where they are `ratio` times as long
+    as in the middle."""
+    steps = [ratio ** (k / (count // 2 - 1)) for k in range(count // 2)]  # from the middle outward
+    right = [half * sum(steps[:n]) / sum(steps) for n in range(1, len(steps) + 1)]
+    return [-x for x in reversed(right)] + [0] + right
+
+
+def half_plane(contact, depth, domain, growth):
+    """Quadrilaterals of a half-plane below a contact at the places -a … a: a box over places of depth (from 0), and around it copies
+    of its outline up to `domain`, at distances that begin as the first element of the contact and grow, beyond 3 a twice as fast.
+    Returns elements, edges (attribute, from, to) and vertices; attributes are 1 the contact, 2 the free surface beside it, 3 the far
+    bottom, 4 the far sides."""
+    a, nx, ny = contact[-1], len(contact) - 1, len(depth) - 1
+    near_by = graded(a, 3 * a, contact[1] - contact[0], growth)
+    far = graded(3 * a, domain, max(near_by[-1] - near_by[-2], 0.1 * a), 1 + 2 * (growth - 1))
+    scales = [radius / a for radius in near_by[1:] + far[1:]]
+    vertices = [(x, -y) for y in depth for x in contact]
 
     def at(i, j):
-        return i + j * wide + 1
+        return i + j * (nx + 1)
 
-    nodes = ["%d %.17g %.17g 0" % (at(i, j), *place(i / (2 * nx), j / (2 * ny))) for j in range(2 * ny + 1) for i in range(wide)]
-    lines = [(1, at(i, 0), at(i + 2, 0), at(i + 1, 0)) for i in range(0, 2 * nx, 2)]
-    lines += [(2, at(2 * nx, j), at(2 * nx, j + 2), at(2 * nx, j + 1)) for j in range(0, 2 * ny, 2)]
-    lines += [(3, at(i + 2, 2 * ny), at(i, 2 * ny), at(i + 1, 2 * ny)) for i in range(0, 2 * nx, 2)]
-    lines += [(4, at(0, j + 2), at(0, j), at(0, j + 1)) for j in range(0, 2 * ny, 2)]
-    elements = [f"8 2 {tag} {tag} {a} {b} {c}" for tag, a, b, c in lines]
-    for j in range(0, 2 * ny, 2):
-        for i in range(0, 2 * nx, 2):
-            own = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
-            elements.append("10 2 1 1 " + " ".join(str(at(i + a, j + b)) for a, b in own))
-    numbered = [f"{k} {line}" for k, line in enumerate(elements, 1)]
-    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(nodes)), *nodes, "$EndNodes", "$Elements",
-                      str(len(numbered)), *numbered, "$EndElements"]) + "\n"
+    elements = [(at(i, j + 1), at(i + 1, j + 1), at(i + 1, j), at(i, j)) for j in range(ny) for i in range(nx)]
+    # Down the left side of the box, along its bottom and up the right side.
+    ring = [at(0, j) for j in range(ny)] + [at(i, ny) for i in range(nx + 1)] + [at(nx, j) for j in reversed(range(ny))]
+    outline = [vertices[k] for k in ring]
+    edges = [(1, at(i, 0), at(i - 1, 0)) for i in range(nx, 0, -1)]
+    for scale in scales:
+        outer = range(len(vertices), len(vertices) + len(ring))
+        vertices += [(scale * x, scale * y) for x, y in outline]
+        elements += [(ring[m], outer[m], outer[m + 1], ring[m + 1]) for m in range(len(ring) - 1)]
+        edges += [(2, ring[0], outer[0]), (2, outer[-1], ring[-1])]
+        ring = outer
+    edges += [(3 if ny <= m < ny + nx else 4, ring[m], ring[m + 1]) for m in range(len(ring) - 1)]
+    return elements, edges, vertices
+
+
+def straight(elements, boundary, vertices):
+    """An MFEM mesh of quadrilaterals of four vertices each and edges (attribute, from, to)."""
+    return mesh_text([f"1 3 {a} {b} {c} {d}" for a, b, c, d in elements], [f"{tag} 1 {a} {b}" for tag, a, b in boundary],
+                     ["%.17g %.17g" % vertex for vertex in vertices])
 
 
 def mesh_text(elements, boundary, vertices, dimension=2):

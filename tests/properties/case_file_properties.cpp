@@ -2,7 +2,7 @@
 // sentence that names its key, with nothing written.
 
 #include "holds.hpp"
-#include "study/run_miniapp.hpp"
+#include "run_miniapp.hpp"
 
 #include <cattaneo/mesh/graded_mesh.hpp>
 
@@ -71,7 +71,7 @@ protected:
       perhaps_of(face, "gap", {"geometry", "closed", 0.001});
       perhaps("order", {1, 2, 3});
       perhaps("increments", {1, 3});
-      perhaps("stepping", {"advancing", "fixed", "exact"});
+      perhaps("stepping", {"exact", "fixed"});
       if (*inRange(0, 2).as("cycle"))
       {
          choose("history", {"P=0; P=1; P=0.5; P=1", {"P=0", "P=1", "P=2", "P=1"}});

@@ -301,9 +301,8 @@ private:
       settings.increments = made_->increments;
       settings.single_increment_if_exact = made_->single_if_exact;
       settings.stop_at_steady_state = false;
-      settings.stepping = stepping == "exact"   ? Stepping::exact
-                          : stepping == "fixed" ? Stepping::fixed
-                                                : Stepping::advancing;
+      settings.stepping = stepping == "exact" ? Stepping::exact : Stepping::fixed;
+      settings.every_event = true; // every accepted state is judged
       auto last = Clock::now();
       const LoadHistory history = LoadHistory::through(made_->history);
       const MarchReport report =
@@ -461,7 +460,7 @@ int main(int argc, char **argv)
       else
       {
          std::cerr << "campaign: unknown option '" << option
-                   << "'; there are -family NAME -stepping increment|fixed|advancing|exact "
+                   << "'; there are -family NAME -stepping increment|fixed|exact "
                       "-seed S -increments N "
                       "-limit SECONDS -save FOLDER -case K -replay FILE\n";
          return 1;
@@ -471,13 +470,12 @@ int main(int argc, char **argv)
    campaign.verbose = verbose;
    campaign.limit = limit;
    std::signal(SIGALRM, hangs);
-   const char *const steppings[] = {"increment", "fixed", "advancing", "exact"};
+   const char *const steppings[] = {"increment", "fixed", "exact"};
    std::vector<std::pair<const FamilyEntry *, int>> all;
    double weight = 0;
    for (const FamilyEntry &f : families())
       for (int c = 1; c <= 2; ++c)
-         if ((family.empty() || family == (c == 2 ? "disc_" : "") + f.name) &&
-             (c == 1 || stepping != "exact"))
+         if (family.empty() || family == (c == 2 ? "disc_" : "") + f.name)
             all.push_back({&f, c}), weight += f.weight(c);
    print("family", "stepping", nullptr);
    Row total;
@@ -495,8 +493,7 @@ int main(int argc, char **argv)
          const Case made = make_case(*f, c, seed, number);
          for (const char *s : steppings)
          {
-            if ((!stepping.empty() && stepping != s) || (c == 2 && !std::strcmp(s, "exact")))
-               continue;
+            if (!stepping.empty() && stepping != s) continue;
             campaign.stepping = s;
             campaign.label =
                campaign.family + "-" + std::to_string(seed) + "-" + std::to_string(number);

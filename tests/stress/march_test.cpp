@@ -137,7 +137,7 @@ TEST(Marches, RandomPaths)
          points.push_back(Vector2d(p, 0.9 * friction * p * uniform(random)));
       }
       for (const MarchSettings &settings :
-           {stepping(Stepping::fixed, 1), stepping(Stepping::advancing, 5),
+           {stepping(Stepping::fixed, 1), stepping(Stepping::exact, 1),
             stepping(Stepping::exact, 5)})
       {
          ContactState state = ContactState::virgin(problem);
@@ -237,9 +237,10 @@ TEST(Marches, SayByHowMuchAdvancingContactDependsOnItsIncrements)
                   << contrast << ' ' << friction << ' ' << increments;
             }
             EXPECT_LE(last, 0.1 * first + 1e-12); // the two ways agree in the end
-            for (int increments : {4, 20})
+            // Stops of the path change nothing.
+            for (int increments : {1, 4, 50})
             {
-               const MarchReport report = marched(Stepping::advancing, increments, state);
+               const MarchReport report = marched(Stepping::exact, increments, state);
                EXPECT_LT(report.advance_error, 1e-5);
                EXPECT_LE(error(), report.advance_error + path.advance_error + 1e-12)
                   << contrast << ' ' << friction << ' ' << increments;

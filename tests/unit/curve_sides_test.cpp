@@ -83,8 +83,8 @@ std::vector<double> coordinates(mfem::Mesh &mesh)
    return all;
 }
 
-/// Nodes of every order lie on the circle that the vertices are on; the other side keeps its
-/// chords, and no element folds.
+/// Nodes of every order lie on the circles that the vertices are on, of the side in contact and
+/// of the free one, and no element folds.
 TEST(CurveSides, MoveNodesOntoCircles)
 {
    const int edges = 6;
@@ -101,6 +101,8 @@ TEST(CurveSides, MoveNodesOntoCircles)
          EXPECT_NEAR(found.most, 1 - std::cos(half), 1e-14);
          EXPECT_EQ(found.moved, order > 1);
          EXPECT_TRUE(found.folding.empty());
+         EXPECT_EQ(found.free_edges, order > 1 ? edges : 0);
+         EXPECT_EQ(found.free_chords, order > 1 ? 0 : edges);
          for (const SideChord &chord : found.chords)
          {
             // The body is outside of the circle.
@@ -110,19 +112,96 @@ TEST(CurveSides, MoveNodesOntoCircles)
          if (order == 1)
          {
             EXPECT_EQ(coordinates(mesh), before);
+            // Both sides have chords: the wall is that of the circles but for their difference.
+            ASSERT_TRUE(found.thinned);
+            EXPECT_NEAR(found.thinned->wall, std::cos(half), 1e-12);
+            EXPECT_NEAR(found.thinned->wall + found.thinned->off, 1, 1e-12);
             continue;
          }
+         EXPECT_FALSE(found.thinned);
          for (const Vector2d &x : along(mesh, bottom)) { EXPECT_NEAR(x.norm(), 1, 1e-13); }
-         for (const Vector2d &x : along(mesh, top))
-         {
-            EXPECT_LT(x.norm(), 2 + 1e-13);
-            EXPECT_GT(x.norm(), 2 * std::cos(half) - 1e-13);
-         }
+         for (const Vector2d &x : along(mesh, top)) { EXPECT_NEAR(x.norm(), 2, 1e-12); }
          EXPECT_NO_THROW(check_elements(mesh));
-         // Of a ring's quarter whose outer side is a polygon.
-         const double expected = edges * 2 * std::sin(2 * half) - pi / 4;
-         EXPECT_NEAR(area_of(mesh), expected, order == 2 ? 2e-5 : 2e-7) << order;
+         // Of a ring's quarter, to what elements of that order are off circles.
+         EXPECT_NEAR(area_of(mesh), 3 * pi / 4, order == 2 ? 1e-4 : 1e-6) << order;
       }
+   }
+}
+
+/// A sleeve of a fiftieth of its radius, whose chords of ten degrees take a fifth of the wall:
+/// curved, it has the wall of the circles, also in layers that are thinner than an arc is high.
+/// Where chords are kept it is said how much the wall misses.
+TEST(CurveSides, ThinWallsHaveTheirThickness)
+{
+   const int edges = 9;
+   const double wall = 0.02;
+   for (int layers : {1, 2, 6})
+   {
+      mfem::Mesh mesh = moved(edges, layers, mfem::Element::QUADRILATERAL,
+                              [=](double s, double t)
+                              {
+                                 const double angle = (1 - s) * pi / 2, r = 1 + wall * t;
+                                 return Vector2d(r * std::cos(angle), r * std::sin(angle));
+                              });
+      const SmoothSides found = curve_sides(mesh, 2, {bottom});
+      EXPECT_TRUE(found.moved);
+      EXPECT_EQ(found.free_edges, edges);
+      EXPECT_FALSE(found.thinned);
+      EXPECT_NO_THROW(check_elements(mesh));
+      const double area = pi / 4 * ((1 + wall) * (1 + wall) - 1);
+      EXPECT_NEAR(area_of(mesh), area, 1e-3 * area) << layers;
+   }
+   // Linear elements keep their chords, here of 22.5 degrees on both sides of a wall of 1.
+   mfem::Mesh mesh = moved(2, 1, mfem::Element::QUADRILATERAL,
+                           [=](double s, double t)
+                           {
+                              const double angle = (1 - s) * pi / 4, r = 1 + t;
+                              return Vector2d(r * std::cos(angle), r * std::sin(angle));
+                           });
+   std::vector<int> curves(mesh.GetNBE(), 7);
+   const SmoothSides linear = curve_sides(mesh, 1, {left}, curves);
+   ASSERT_TRUE(linear.thinned);
+   const double chord = std::cos(pi / 16);
+   EXPECT_NEAR(linear.thinned->wall, chord, 1e-12);
+   EXPECT_NEAR(linear.thinned->off, 1 - chord, 1e-12);
+}
+
+/// A curve goes on as its mirror image beyond planes that supports hold, and only there: an
+/// ellipse's half whose end edges are then those of the whole.
+TEST(CurveSides, GoOnAsImagesAtPlanesThatAreHeld)
+{
+   const int n = 12;
+   const auto half = [=](double s, double t)
+   {
+      const double angle = (s - 0.5) * pi, r = 1 - 0.5 * t;
+      return Vector2d(2 * r * std::sin(angle), -r * std::cos(angle));
+   };
+   SidePolygon whole;
+   whole.loop = true;
+   for (int k = 0; k < 2 * n; ++k)
+   {
+      const double angle = (k / double(n) - 0.5) * pi;
+      whole.vertices.emplace_back(2 * std::sin(angle), -std::cos(angle));
+   }
+   const std::vector<EdgeBend> all = smooth_curve(whole);
+   for (bool held : {false, true})
+   {
+      mfem::Mesh mesh = moved(n, 2, mfem::Element::QUADRILATERAL, half);
+      const SmoothSides found = curve_sides(
+         mesh, 1, {bottom}, {}, held ? std::vector<int>{left, right} : std::vector<int>());
+      ASSERT_EQ(found.chords.size(), std::size_t(n));
+      double off = 0;
+      for (const SideChord &chord : found.chords)
+      {
+         for (int k = 0; k < n; ++k)
+         {
+            if ((chord.from - whole.vertices[k]).norm() > 1e-12) { continue; }
+            off = std::max(off, std::abs(chord.bend.begin - all[k].begin) +
+                                   std::abs(chord.bend.end - all[k].end));
+         }
+      }
+      if (held) { EXPECT_LT(off, 1e-12); }
+      else { EXPECT_GT(off, 1e-3); }
    }
 }
 

@@ -1,5 +1,6 @@
 #include "expect_input_error.hpp"
 
+#include <Eigen/Core>
 #include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/mesh/mesh_file.hpp>
 #include <fstream>
@@ -100,7 +101,7 @@ TEST(DeckMesh, HasTheSectionsAsAttributes)
    EXPECT_EQ(read_mesh(written(nodes + squares)).GetAttribute(1), 1);
    const std::string loaded =
       written(nodes + squares + "*Boundary\nall, 1, 2\n*Step\n*Cload\n1, 1, 2.\n*End step\n");
-   EXPECT_EQ(mesh_names(loaded).passed_over, "*BOUNDARY, *CLOAD");
+   EXPECT_EQ(mesh_names(loaded).passed_over, "*BOUNDARY, *CLOAD, *STEP");
 }
 
 /// Order 2: 8 nodes with a bent side (a parabola of 2 by 0.2 below), and a triangle of 6.
@@ -182,10 +183,106 @@ TEST(DeckMesh, RefusesInOneSentenceWithTheLine)
    says(both + "*ELSET, ELSET=A\n8\n", "line 14: there is no element 8");
    says(both + "*ELSET, ELSET=A, GENERATE\n7, 8\n", "must be between elements that are there");
    says(both + "*SOLID SECTION, ELSET=LEFT\n", "element 12 is in no *SOLID SECTION");
-   says(both + "*PART, NAME=A\n*PART, NAME=B\n", "a second *PART begins");
    says(both + "*TIE, NAME=A\n", "*TIE makes nodes depend on others");
-   says("*NODE\n1, 0., 0., 1.\n", "line 2: node 1 is at z = 1");
+   says(both + "*TIE, NAME=A\n",
+        "say in the case that these sides are an interface that is tied");
+   says(both + "*ELGEN\n7, 2, 3, 1\n", "line 13: *ELGEN makes or moves nodes or elements");
+   says("*NODE\n1, 0., 0., 1.\n2, 1., 0.\n3, 1., 1.\n*ELEMENT, TYPE=CPE3\n1, 1, 2, 3\n",
+        "node 2 is at z = 0, the first one at 1");
    says("*INCLUDE, INPUT=none.inp\n", "none.inp'");
+}
+
+/// What a pre-processor exports: parts with numbers and sets of their own, instances that are
+/// moved and turned, sets and surfaces of the assembly.
+const std::string assembly =
+   "*Heading\n** PARTS\n*Part, name=Plate\n" + nodes + squares +
+   "*Nset, nset=Set-1, generate\n1, 3, 1\n*Elset, elset=Set-1\n7, 12\n"
+   "*Solid Section, elset=Set-1, material=Steel\n,\n*End Part\n"
+   "*Part, name=Wedge\n*Node\n1, 0., 0.\n2, 2., 0.\n3, 0., 1.\n4, 1., 0.\n5, 1., .5\n"
+   "6, 0., .5\n*Element, type=CPE6M\n1, 1, 2, 3, 4, 5, 6\n*Elset, elset=all\n1\n"
+   "*Solid Section, elset=all, material=Brass\n,\n*End Part\n"
+   "** ASSEMBLY\n*Assembly, name=Assembly\n*Instance, name=Plate-1, part=Plate\n"
+   "*End Instance\n"
+   "*Instance, name=Plate-2, part=Plate\n10., 1., 0.\n"
+   "10., 1., 0., 10., 1., 1., 90.\n*End Instance\n"
+   "*Instance, name=Wedge-1, part=Wedge\n0., 5., 3.\n*End Instance\n"
+   "*Node\n1, 7., 7., 7.\n*Nset, nset=point\n1\n"
+   "*Nset, nset=Set-1, instance=Plate-1\n4, 5, 6\n"
+   "*Elset, elset=_top_S3, internal, instance=Plate-2\n7, 12\n"
+   "*Elset, elset=_top_S2, internal, instance=Wedge-1\n1\n"
+   "*Surface, type=ELEMENT, name=top\n_top_S3, S3\n_top_S2, S2\n"
+   "*Surface, type=ELEMENT, name=left\nPlate-1.left, S4\n"
+   "*Nset, nset=corner\nPlate-2.1, Plate-2.4\n*End Assembly\n"
+   "*Material, name=Steel\n*Elastic\n210000., 0.3\n*Material, name=Brass\n*Elastic\n"
+   "100000., 0.34\n110000., 0.34, 100.\n"
+   "*Surface Interaction, name=dry\n*Friction\n0.3,\n"
+   "*Contact Pair, interaction=dry\ntop, left\n*Boundary\nSet-1, 2, 2\n*Step\n*Static\n"
+   "*Dsload\ntop, P, 3.\n*Output, field\n*End Step\n";
+
+TEST(DeckMesh, HasInstancesAsBodies)
+{
+   const std::string file = written(assembly, "assembly.inp");
+   const auto bounds = [&](const char *part)
+   {
+      mfem::Vector low, high;
+      mfem::Mesh mesh = read_mesh(file, nullptr, {part});
+      mesh.GetBoundingBox(low, high);
+      return Eigen::Vector4d(low(0), low(1), high(0), high(1));
+   };
+   EXPECT_EQ(bounds("plate-1"), Eigen::Vector4d(0, 0, 2, 1));
+   // Moved by (10, 1), then turned by a quarter about the place where (0, 0) is now.
+   EXPECT_LT((bounds("plate-2") - Eigen::Vector4d(9, 1, 10, 3)).norm(), 1e-14);
+   EXPECT_EQ(bounds("wedge-1"), Eigen::Vector4d(0, 5, 2, 6));
+   EXPECT_EQ(read_mesh(file, nullptr, {"", "WEDGE-1"}).GetNE(), 1);
+   // The assembly's set is the one of the plain name.
+   const MeshNames first = mesh_names(file, {"PLATE-1"});
+   EXPECT_EQ(first.boundary.count("SET-1"), 1u);
+   EXPECT_EQ(first.boundary.count("PLATE-1.SET-1"), 1u);
+   EXPECT_NE(first.boundary.at("SET-1"), first.boundary.at("PLATE-1.SET-1"));
+   EXPECT_EQ(first.boundary.count("LEFT"), 1u);
+   EXPECT_EQ(first.boundary.count("TOP"), 0u);
+   EXPECT_EQ(first.boundary.count("POINT"), 0u);
+   EXPECT_EQ(mesh_names(file, {"PLATE-2"}).boundary.at("TOP").size(), 1u);
+   EXPECT_EQ(mesh_names(file, {"PLATE-2"}).boundary.at("CORNER").size(), 1u);
+   EXPECT_EQ(mesh_names(file, {"WEDGE-1"}).boundary.at("TOP").size(), 1u);
+   EXPECT_EQ(first.passed_over,
+             "*BOUNDARY, *CONTACT PAIR, *DSLOAD, *FRICTION, *OUTPUT, *STATIC, *STEP, *SURFACE "
+             "INTERACTION");
+   ASSERT_EQ(first.materials.size(), 1u);
+   EXPECT_EQ(first.materials[0].young, 210000);
+   EXPECT_EQ(first.materials[0].poisson, 0.3);
+   EXPECT_EQ(first.plane_elements, std::set<std::string>{"CPE"});
+   // It changes with temperature.
+   EXPECT_EQ(mesh_names(file, {"WEDGE-1"}).materials.at(0).young, 0);
+   expect_input_error([&] { read_mesh(file); },
+                      "has 3 instances, PLATE-1, PLATE-2, WEDGE-1: each body must say which");
+   expect_input_error([&] { read_mesh(file, nullptr, {"Plate"}); },
+                      "there is no instance and no set of elements 'Plate', must be one of: "
+                      "PLATE-1, PLATE-2, WEDGE-1");
+   std::string askew = assembly;
+   askew.replace(askew.find("10., 1., 1., 90."), 16, "10., 2., 1., 90.");
+   expect_input_error([&] { read_mesh(written(askew), nullptr, {"Plate-2"}); },
+                      "has the direction (0, 1, 1), must be along z");
+}
+
+/// Two bodies of one deck that share nodes 2 and 5, of different orders.
+TEST(DeckMesh, HasSetsOfElementsAsBodies)
+{
+   const std::string file =
+      written(nodes + "8, 1.5, 0.\n10, 1.5, .5\n11, 1., .5\n" +
+              "*Element, type=CPE4, elset=left\n7, 1, 2, 5, 4\n"
+              "*Element, type=CPE6, elset=right\n8, 2, 3, 5, 8, 10, 11\n"
+              "*Nset, nset=bottom\n1, 2, 8, 3\n*Surface, name=seam\nleft, S2\nright, S3\n");
+   // As one body it would have the seam inside, and elements of two orders.
+   expect_input_error([&] { read_mesh(file); }, "of surface 'SEAM' is inside of the body");
+   EXPECT_EQ(read_mesh(file, nullptr, {"left"}).GetNE(), 1);
+   EXPECT_DOUBLE_EQ(read_mesh(file, nullptr, {"right"}).GetElementVolume(0), 0.5);
+   for (const char *part : {"left", "right"})
+   {
+      const MeshNames names = mesh_names(file, {part});
+      EXPECT_EQ(names.boundary.at("BOTTOM").size(), 1u) << part;
+      EXPECT_EQ(names.boundary.at("SEAM").size(), 1u) << part;
+   }
 }
 
 } // namespace

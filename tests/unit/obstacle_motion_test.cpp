@@ -67,8 +67,8 @@ TEST(ObstacleMotion, IsTheOppositeMotionOfTheSupport)
             march(problem,
                   LoadHistory::through(problem, {{},
                                                  {{"down", 0.1}},
-                                                 {{"down", 0.1}, {"aside", 0.02}},
-                                                 {{"down", 0.1}, {"turn", 0.01}}}),
+                                                 {{"aside", 0.02}},
+                                                 {{"aside", 0}, {"turn", 0.01}}}),
                   states[k]);
          EXPECT_EQ(report.status, FrictionStatus::converged);
       }

@@ -175,8 +175,8 @@ TEST_F(Output, AReductionIsWrittenAsTheMarchGoes)
       ReductionFields fields(reduction, {&body}, folder + "/together");
       EXPECT_EQ(reduction.counters.field_recoveries, 0);
       ContactState state = ContactState::virgin(reduction.problem);
-      march(reduction.problem, LoadHistory::through(reduction.problem, {{}, {{"P", 1}}, {}}),
-            state, {},
+      march(reduction.problem,
+            LoadHistory::through(reduction.problem, {{}, {{"P", 1}}, {{"P", 0}}}), state, {},
             [&](const ContactState &now, const IncrementRecord &)
             {
                fields.write(now);

@@ -19,6 +19,11 @@ RoundOff::RoundOff(const Eigen::Ref<const MatrixXd> &K) : K_(K)
    graded_ = K.diagonal().minCoeff() < 1e-4 * K.diagonal().maxCoeff();
 }
 
+double RoundOff::most(const VectorXd &u, const VectorXd &f) const
+{
+   return 4 * eps * (norm_ * u.cwiseAbs().maxCoeff() + f.cwiseAbs().maxCoeff());
+}
+
 VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
 {
    if (!graded_)
@@ -30,15 +35,30 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
          return VectorXd::Constant(K_.rows(), 4 * eps * all);
       }
    }
-   VectorXd sum = f.cwiseAbs();
-   for (Index j = 0; j < K_.cols(); ++j) // half of K is read
+   if (size.isZero(0)) { return 4 * eps * f.cwiseAbs(); }
+   return 4 * eps * (product(size) + f.cwiseAbs());
+}
+
+/// |K| size
+VectorXd RoundOff::product(const VectorXd &size) const
+{
+   const Index rows = K_.rows();
+   const double most = size.maxCoeff();
+   // A larger one would fill memory, from which it is read no faster.
+   if (rows <= 2048 && norm_ > 0 && std::isfinite(most))
    {
-      const Index below = K_.rows() - j - 1;
+      if (sizes_.size() == 0) { sizes_ = (K_.cwiseAbs() / norm_).cast<float>(); }
+      return norm_ * most * (sizes_ * (size / most).cast<float>()).cast<double>();
+   }
+   VectorXd sum = VectorXd::Zero(rows);
+   for (Index j = 0; j < rows; ++j) // half of K is read
+   {
+      const Index below = rows - j - 1;
       const auto column = K_.col(j).tail(below).cwiseAbs();
       sum[j] += std::abs(K_(j, j)) * size[j] + column.dot(size.tail(below));
       if (size[j] != 0) { sum.tail(below) += size[j] * column; }
    }
-   return 4 * eps * sum;
+   return sum;
 }
 
 } // namespace cattaneo

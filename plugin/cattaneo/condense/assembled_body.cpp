@@ -127,6 +127,14 @@ void AssembledBody::validate() const
          "fix the row, or say that supports are in it (supports_left_out of a stiffness on "
          "nodes, else grounded), such rows are fixed then");
    }
+   if (const auto alone = alone_on_a_slope(stiffness, places, fixed))
+   {
+      require(false, "assembled body: nothing but ", alone->diagonal,
+              " on the diagonal holds the node (", places.x[alone->x], ", ", places.y[alone->x],
+              ") along (", alone->direction[0], ", ", alone->direction[1],
+              "), as where a support on a slope was eliminated: pass the stiffness as "
+              "assembled, turned so that the support is along x or y, and fix it there");
+   }
    const double most = largest_beside_diagonal(stiffness);
    const Eigen::VectorXd diagonals = diagonal_of(stiffness);
    std::set<std::string> names;

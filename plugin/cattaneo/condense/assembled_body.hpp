@@ -59,7 +59,8 @@ struct AssembledBody
    /// an entry that is there twice, the order of the fixed dofs, loads that are not finite,
    /// have no name of their own or displace what is not fixed or what nothing hangs on (a
    /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it), rows
-   /// that are eliminated() of a body that is not grounded.
+   /// that are eliminated() of a body that is not grounded, a node that nothing but a diagonal
+   /// holds across the axes (a support on a slope that was eliminated).
    void validate() const;
    /// What is said of a load whose displacements nothing hangs on.
    static constexpr const char *feels_nothing =

@@ -53,11 +53,13 @@ void check_joined(const ContactLine &line, const std::string &where)
       for (auto other = one + 1; other != along.end() && other->first - one->first <= farthest;
            ++other)
       {
-         require((node.position - other->second->position).norm() >
-                    near * std::min(node.spacing, other->second->spacing),
-                 where, ": two nodes lie on one another at ", node.position,
-                 ", the elements there are not joined: make them one node (in Gmsh: Coherence "
-                 "Mesh)");
+         require(
+            (node.position - other->second->position).norm() >
+               near * std::min(node.spacing, other->second->spacing),
+            where, ": two nodes lie on one another at ", node.position,
+            ", the elements there are not joined: if these are two lips that touch, name "
+            "each lip by itself and make a contact line of each; if the body is one piece, "
+            "make them one node (in Gmsh: Coherence Mesh)");
       }
    }
 }
@@ -248,7 +250,7 @@ void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chai
       side.beyond = {way_on(ways, first, -first.node.tangent),
                      way_on(ways, last, last.node.tangent)};
    }
-   const std::vector<EdgeBend> bends = smooth_curve(side);
+   const std::vector<EdgeBend> bends = smooth_curve(side), possible = possible_curve(side);
    // Nodes of a file with few digits are off a chord as well.
    std::vector<bool> curved;
    for (std::size_t e = 0; e < bends.size(); ++e)
@@ -259,7 +261,9 @@ void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chai
    const bool knows = std::count(curved.begin(), curved.end(), true) > 0;
    for (std::size_t e = 0; e < bends.size(); ++e)
    {
-      if (!curved[e]) { joined.elements[e].bend = knows ? EdgeBend() : bends[e]; }
+      if (curved[e]) { continue; }
+      joined.elements[e].bend = knows ? EdgeBend() : bends[e];
+      if (!knows) { joined.elements[e].possible = possible[e]; }
    }
 }
 

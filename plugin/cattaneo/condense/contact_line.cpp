@@ -76,37 +76,75 @@ double LineElement::off_chord(Eigen::Index node) const
    return (chord[1] * to_node[0] - chord[0] * to_node[1]) / chord.squaredNorm();
 }
 
-Eigen::Vector2d LineElement::off_curve(double s) const
+/// How far a curve over the chord of an element lies from the element.
+static Eigen::Vector2d off(const LineElement &element, const EdgeBend &curve, double s)
 {
-   if (!bend || bend->straight()) { return {0, 0}; }
+   if (curve.straight()) { return {0, 0}; }
    // The element is the polynomial through its nodes, wherever these are.
-   double off = bend->off(s);
-   if (order() > 1)
+   double off = curve.off(s);
+   if (element.order() > 1)
    {
-      Eigen::VectorXd values(order() + 1);
-      lobatto_basis(order()).evaluate(s, values);
-      for (Eigen::Index a = 1; a < order(); ++a) { off -= values[a] * off_chord(a); }
+      Eigen::VectorXd values(element.order() + 1);
+      lobatto_basis(element.order()).evaluate(s, values);
+      for (Eigen::Index a = 1; a < element.order(); ++a)
+      {
+         off -= values[a] * element.off_chord(a);
+      }
    }
-   const Eigen::Vector2d chord = points.rightCols(1) - points.leftCols(1);
+   const Eigen::Vector2d chord = element.points.rightCols(1) - element.points.leftCols(1);
    return off * Eigen::Vector2d(chord[1], -chord[0]);
 }
 
-Eigen::MatrixX2d ContactLine::off_curves() const
+Eigen::Vector2d LineElement::off_curve(double s) const
 {
-   Eigen::MatrixX2d all = Eigen::MatrixX2d::Zero(size(), 2);
-   for (const LineChain &chain : chains)
+   return off(*this, bend.value_or(EdgeBend()), s);
+}
+
+Eigen::Vector2d LineElement::off_possible(double s) const
+{
+   return off(*this, possible, s);
+}
+
+Eigen::Vector2d LineElement::curve_tangent(double s) const
+{
+   const Eigen::Vector2d chord = points.rightCols(1) - points.leftCols(1);
+   const double slope = bend ? bend->slope(s) : 0;
+   return (chord + slope * Eigen::Vector2d(chord[1], -chord[0])).normalized();
+}
+
+/// Of the inner nodes of elements, by off(element, s); n × 2.
+template <class Off>
+static Eigen::MatrixX2d off_nodes(const ContactLine &line, Off off)
+{
+   Eigen::MatrixX2d all = Eigen::MatrixX2d::Zero(line.size(), 2);
+   for (const LineChain &chain : line.chains)
    {
       for (const LineElement &element : chain.elements)
       {
-         if (!element.bend || element.bend->straight()) { continue; }
          const Eigen::VectorXd &at = lobatto_basis(element.order()).nodes;
          for (Eigen::Index a = 1; a < element.order(); ++a)
          {
-            all.row(element.nodes[a]) = element.off_curve(at[a]);
+            all.row(element.nodes[a]) = off(element, at[a]);
          }
       }
    }
    return all;
+}
+
+Eigen::MatrixX2d ContactLine::off_curves() const
+{
+   return off_nodes(*this,
+                    [](const LineElement &element, double s) { return element.off_curve(s); });
+}
+
+Eigen::MatrixX2d ContactLine::off_unmeasured() const
+{
+   return off_nodes(*this,
+                    [this](const LineElement &element, double s) -> Eigen::Vector2d
+                    {
+                       const Eigen::Vector2d may = element.off_possible(s);
+                       return as_meshed ? Eigen::Vector2d(may + element.off_curve(s)) : may;
+                    });
 }
 
 Eigen::MatrixX2d ContactLine::outline() const
@@ -207,6 +245,7 @@ void bend_elements(ContactLine &line, const std::vector<SideChord> &chords)
             if (((*at)->from - from).norm() <= near && ((*at)->to - to).norm() <= near)
             {
                element.bend = (*at)->bend;
+               element.possible = (*at)->possible;
             }
          }
       }

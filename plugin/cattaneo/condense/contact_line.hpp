@@ -45,6 +45,9 @@ struct LineElement
    /// polygon. Not known: of elements that are curved by their mesh, and of a script that says
    /// nothing (smooth_curve() may be asked).
    std::optional<EdgeBend> bend = std::nullopt;
+   /// The curve that it may belong to where its side is kept a polygon for want of evidence
+   /// (possible_curve()): gaps are not measured on it, estimates have it.
+   EdgeBend possible = {};
 
    /// Degree of the polynomials: one less than its nodes.
    Eigen::Index order() const { return points.cols() - 1; }
@@ -52,6 +55,10 @@ struct LineElement
    double off_chord(Eigen::Index node) const;
    /// How far its smooth curve lies from the element at 0 <= s <= 1; zero if none is known.
    Eigen::Vector2d off_curve(double s) const;
+   /// The same of the curve that it may belong to.
+   Eigen::Vector2d off_possible(double s) const;
+   /// The direction of its smooth curve there, a unit vector; of the chord if none is known.
+   Eigen::Vector2d curve_tangent(double s) const;
 };
 
 /// Nodes that follow each other along the boundary.
@@ -123,6 +130,9 @@ struct ContactLine
    /// n × 2: where gaps are measured from, nodes on those curves; as meshed the nodes
    /// themselves.
    Eigen::MatrixX2d outline() const;
+   /// n × 2: how far the curves that gaps are not measured on lie from the nodes: all of them
+   /// as meshed, else those that elements may belong to (LineElement::possible).
+   Eigen::MatrixX2d off_unmeasured() const;
    /// n × 2: how far the outline is from chords that were taken for smooth curves.
    Eigen::MatrixX2d bulges() const;
    /// The chain that a node is on.

@@ -2,6 +2,8 @@
 #include <cattaneo/condense/row_links.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace cattaneo
 {
@@ -77,6 +79,81 @@ bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double mos
       if (places.component[entry.col()] == component) { resistance += entry.value(); }
    }
    return is_linked(entries, places.formulation, component, most, resistance);
+}
+
+namespace
+{
+
+/// The direction of alone_on_a_slope() of the node with the dofs x and y.
+std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
+{
+   // What the two rows hold, within the node's block and beside it.
+   Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
+   std::map<Eigen::Index, Eigen::Vector2d> beside;
+   for (int k = 0; k < 2; ++k)
+   {
+      for (SparseView::InnerIterator entry(K, k == 0 ? x : y); entry; ++entry)
+      {
+         if (entry.col() == x) { block(k, 0) = entry.value(); }
+         else if (entry.col() == y) { block(k, 1) = entry.value(); }
+         else
+         {
+            beside.try_emplace(entry.col(), Eigen::Vector2d::Zero()).first->second[k] =
+               entry.value();
+         }
+      }
+   }
+   // The direction t of the column that is longest, and n across it.
+   Eigen::Vector2d t = Eigen::Vector2d::Zero();
+   for (const auto &[column, entries] : beside)
+   {
+      if (entries.norm() > t.norm()) { t = entries; }
+   }
+   const double longest = t.norm();
+   if (longest == 0) { return std::nullopt; }
+   t /= longest;
+   const Eigen::Vector2d n(-t[1], t[0]);
+   // Along an axis it is a row of its own, which is_linked() knows.
+   if (std::min(std::abs(n[0]), std::abs(n[1])) < 1e-12) { return std::nullopt; }
+   for (const auto &[column, entries] : beside)
+   {
+      if (std::abs(n.dot(entries)) > 1e-12 * longest) { return std::nullopt; }
+   }
+   const double size = block.norm(), diagonal = n.dot(block * n);
+   // A bar on a slope holds nothing across it: that is no support.
+   if (std::abs(t.dot(block * n)) > 1e-12 * size || diagonal <= 1e-14 * size)
+   {
+      return std::nullopt;
+   }
+   return AloneDirection{x, y, n, diagonal};
+}
+
+} // namespace
+
+std::optional<AloneDirection> alone_on_a_slope(const SparseView &K, const DofPlaces &places,
+                                               const std::vector<int> &fixed)
+{
+   // The two components in the plane; about an axis they are radial and axial.
+   std::map<std::pair<double, double>, std::pair<std::vector<int>, std::vector<int>>> nodes;
+   for (int dof = 0; dof < K.rows(); ++dof)
+   {
+      const int component = places.component[dof];
+      if (component > 1 || std::binary_search(fixed.begin(), fixed.end(), dof)) { continue; }
+      auto &[x, y] = nodes[{places.x[dof], places.y[dof]}];
+      (component == 0 ? x : y).push_back(dof);
+   }
+   // Several nodes may be at one place: the dofs of two of them fail the test.
+   for (const auto &[place, dofs] : nodes)
+   {
+      for (const int x : dofs.first)
+      {
+         for (const int y : dofs.second)
+         {
+            if (const auto found = alone_direction(K, x, y)) { return found; }
+         }
+      }
+   }
+   return std::nullopt;
 }
 
 SharedMatrix without_links(const SharedMatrix &K, const std::vector<int> &rows)

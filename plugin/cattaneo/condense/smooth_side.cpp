@@ -11,6 +11,8 @@ namespace
 {
 
 const double degree = std::acos(-1.0) / 180;
+/// Radians: what round-off of coordinates may turn an edge by.
+constexpr double round_off = 1e-6;
 
 double cross(const Vector2d &a, const Vector2d &b)
 {
@@ -20,6 +22,8 @@ double cross(const Vector2d &a, const Vector2d &b)
 /// How many vertices are added beyond an end to see it as one that goes on: more than a run of
 /// turns that decides.
 constexpr int beyond_end = 8;
+/// Vertices on each side of one that tell whether it is one of a profile that turns to and fro.
+constexpr int around_profile = 8;
 
 /** A side without ends where it has none: loops and mirror images go on beyond them. */
 class OpenSide
@@ -27,20 +31,32 @@ class OpenSide
 public:
    explicit OpenSide(const SidePolygon &side);
    std::vector<EdgeBend> bends();
+   /// Does the curve, once its bends are known, go on beyond an end as the image that it was
+   /// given there? Without an image: true.
+   bool meets_image(bool end) const;
+   /// After bends(): arcs that vertices may be of which it has taken for corners.
+   std::vector<EdgeBend> possible() const;
 
 private:
    using Vertices = std::vector<Vector2d>;
 
    void measure();
+   void find_steady_runs();
+   void classify();
    void join_curves();
    bool find_corners();
    void find_short_runs();
-   bool drop_profile();
+   void drop_profile();
+   bool to_and_fro(int i) const;
    bool fits_flank(int i, int way, double within = 0.1) const;
    void find_joints();
    EdgeBend bend(int edge) const;
    void meet(std::vector<EdgeBend> &all) const;
+   std::vector<EdgeBend> all_bends() const;
+   std::vector<EdgeBend> of_edges(const std::vector<EdgeBend> &all) const;
 
+   /// A turn that is no larger is one of round-off.
+   double flat(int i) const { return steady_[i] ? round_off : flat_; }
    int last() const { return static_cast<int>(x_.size()) - 1; }
    bool within(int i) const { return curve_[i - 1] >= 0 && curve_[i - 1] == curve_[i]; }
    bool inside(int i) const { return within(i) || (curve_[i - 1] >= 0 && joined_[i]); }
@@ -60,8 +76,12 @@ private:
    int first_ = 0;          ///< edge that was the first
    std::size_t edges_ = 0;  ///< how many there were
    std::vector<double> length_, along_, turn_, curvature_, centre_;
-   double flat_ = 0; ///< turns of no more than that are those of round-off
-   std::vector<bool> corner_, joined_;
+   /// Turns of no more than that are those of round-off, unless they follow each other
+   /// steadily.
+   double flat_ = 0;
+   std::array<int, 2> tip_{-1, -1}; ///< vertices beyond which there is a mirror image
+   std::vector<bool> steady_, corner_, joined_;
+   std::vector<bool> distinct_; ///< corners by the angle or by the vertices beside them
    std::vector<int>
       joint_; ///< -1: of an arc before and a straight flank after, 1: of the other
 };
@@ -112,6 +132,7 @@ OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
       }
       if (end)
       {
+         tip_[1] = tip;
          x_.insert(x_.end(), more.begin(), more.end());
          curve_.insert(curve_.end(), curves.begin(), curves.end());
       }
@@ -120,6 +141,8 @@ OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
          x_.insert(x_.begin(), more.rbegin(), more.rend());
          curve_.insert(curve_.begin(), curves.rbegin(), curves.rend());
          first_ = images;
+         tip_[0] = images;
+         if (tip_[1] >= 0) { tip_[1] += images; }
       }
    }
 }
@@ -154,9 +177,29 @@ void OpenSide::measure()
          largest = std::max(largest, std::abs(turn));
       }
    }
-   flat_ = std::max(1e-6, 0.01 * largest);
+   flat_ = std::max(round_off, 0.01 * largest);
    corner_ = joined_ = std::vector<bool>(n, false);
    joint_.assign(n, 0);
+   find_steady_runs();
+}
+
+/// Four turns in a row or more in one direction, of like curvature, are none of round-off,
+/// which goes to and fro: so small ones are those of a slightly crowned side, however much a
+/// chamfer beside it turns.
+void OpenSide::find_steady_runs()
+{
+   steady_.assign(x_.size(), false);
+   const auto goes_on = [&](int i) // from i - 1
+   {
+      const double a = curvature_[i - 1], b = curvature_[i];
+      return a * b > 0 && std::min(std::abs(turn_[i - 1]), std::abs(turn_[i])) > round_off &&
+             std::max(std::abs(a), std::abs(b)) <= 1.5 * std::min(std::abs(a), std::abs(b));
+   };
+   for (int begin = 1, end = 1; begin < last(); begin = end)
+   {
+      for (end = begin + 1; end < last() && goes_on(end);) { ++end; }
+      if (end - begin >= 4) { std::fill_n(steady_.begin() + begin, end - begin, true); }
+   }
 }
 
 /// An arc may be several curves of the file, of which some have a single edge. Where the
@@ -167,7 +210,7 @@ void OpenSide::join_curves()
    const auto alike = [&](int i, int j)
    {
       const double a = curvature_[i], b = curvature_[j];
-      return std::min(std::abs(turn_[i]), std::abs(turn_[j])) > flat_ &&
+      return std::abs(turn_[i]) > flat(i) && std::abs(turn_[j]) > flat(j) &&
              std::abs(a - b) <= 0.05 * std::max(std::abs(a), std::abs(b));
    };
    for (int begin = 1, end = 1; begin < last(); begin = end)
@@ -220,7 +263,7 @@ bool OpenSide::find_corners()
             const double largest = std::max(std::abs(on_left), std::abs(on_right)) * 0.5 *
                                    (length_[i - 1] + length_[i]);
             is_corner =
-               std::abs(turn_[i] - expected) > (inside(i) ? 1.5 : 1.2) * largest + flat_;
+               std::abs(turn_[i] - expected) > (inside(i) ? 1.5 : 1.2) * largest + flat(i);
          }
          if (is_corner)
          {
@@ -239,9 +282,11 @@ void OpenSide::find_short_runs()
    const auto counts = [&](int i)
    {
       if (i < 1 || i >= last() || corner_[i]) { return false; }
-      const double beside = std::max(i > 1 ? std::abs(turn_[i - 1]) : 0,
-                                     i + 1 < last() ? std::abs(turn_[i + 1]) : 0);
-      return std::abs(turn_[i]) > std::max(flat_, 0.1 * beside);
+      // Corners tell nothing of what is beside them.
+      const auto turn = [&](int j)
+      { return j > 0 && j < last() && !distinct_[j] ? std::abs(turn_[j]) : 0; };
+      const double beside = std::max(turn(i - 1), turn(i + 1));
+      return std::abs(turn_[i]) > std::max(flat(i), 0.1 * beside);
    };
    for (int begin = 1; begin < last();)
    {
@@ -273,27 +318,68 @@ void OpenSide::find_short_runs()
    }
 }
 
-/// A measured profile: where a third of the vertices that turn do so against their neighbours,
-/// the others do not lie on a curve either.
-bool OpenSide::drop_profile()
+/// Is a vertex a corner that turns against one beside it, and not by far more? A chamfer or a
+/// facet turns one way.
+bool OpenSide::to_and_fro(int i) const
 {
-   int turns = 0, odd = 0;
-   double largest = 0;
+   const auto against = [&](int j)
+   {
+      return j > 0 && j < last() && turn_[i] * turn_[j] < 0 &&
+             std::abs(turn_[j]) >= 0.1 * std::abs(turn_[i]);
+   };
+   return corner_[i] && (against(i - 1) || against(i + 1));
+}
+
+/// A measured profile: where a third of the vertices that turn do so to and fro, the others do
+/// not lie on a curve either. Asked of the vertices around each one, as other parts of a side
+/// may be what they are. Beside such vertices a few that turn one way do so by chance, unless
+/// they are twelve, or five that turn alike.
+void OpenSide::drop_profile()
+{
+   std::vector<bool> dropped = corner_;
    for (int i = 1; i < last(); ++i)
    {
-      if (std::abs(turn_[i]) < SidePolygon::corner * degree)
+      const int from = std::max(1, i - around_profile),
+                to = std::min(last() - 1, i + around_profile);
+      double largest = 0;
+      for (int j = from; j <= to; ++j)
       {
-         largest = std::max(largest, std::abs(turn_[i]));
+         const double turn = std::abs(turn_[j]);
+         if (turn < SidePolygon::corner * degree) { largest = std::max(largest, turn); }
+      }
+      int turns = 0, odd = 0;
+      for (int j = from; j <= to; ++j)
+      {
+         const double turn = std::abs(turn_[j]);
+         if (turn > SidePolygon::corner * degree || turn < 0.02 * largest) { continue; }
+         ++turns;
+         odd += to_and_fro(j);
+      }
+      dropped[i] = dropped[i] || (3 * odd > turns && !inside(i));
+   }
+   std::vector<bool> odd(x_.size(), false);
+   for (int i = 1; i < last(); ++i) { odd[i] = to_and_fro(i); }
+   corner_ = dropped;
+   const auto kept = [&](int i) { return i > 0 && i < last() && !corner_[i]; };
+   for (int begin = 1, end = 1; begin < last(); begin = end)
+   {
+      end = begin + 1;
+      if (!kept(begin)) { continue; }
+      bool alike = true, known = inside(begin);
+      for (; kept(end); ++end)
+      {
+         const double a = curvature_[end - 1], b = curvature_[end];
+         alike = alike && std::abs(a - b) <= 0.2 * std::max(std::abs(a), std::abs(b));
+         known = known || inside(end);
+      }
+      const int from = std::max(1, begin - around_profile),
+                to = std::min(last(), end + around_profile);
+      const bool beside = std::count(odd.begin() + from, odd.begin() + to, true) > 1;
+      if (beside && !known && end - begin < (alike ? 5 : 12))
+      {
+         std::fill_n(corner_.begin() + begin, end - begin, true);
       }
    }
-   for (int i = 1; i < last(); ++i)
-   {
-      const double turn = std::abs(turn_[i]);
-      if (turn > SidePolygon::corner * degree || turn < 0.02 * largest) { continue; }
-      ++turns;
-      odd += corner_[i];
-   }
-   return turns > 0 && 3 * odd > turns;
 }
 
 /// Does a vertex turn as one does between an arc on this side of it (-1: before, 1: after) and
@@ -304,7 +390,7 @@ bool OpenSide::fits_flank(int i, int way, double within) const
    if (!tells(i) || !tells(i + way)) { return false; }
    const double curvature = curvature_[i + way], half = arc(way < 0 ? i - 1 : i, curvature),
                 more = arc(way < 0 ? i : i - 1, curvature);
-   return std::abs(half) > flat_ && std::abs(turn_[i] - half) < within * std::abs(more);
+   return std::abs(half) > flat(i) && std::abs(turn_[i] - half) < within * std::abs(more);
 }
 
 /// Vertices between an arc and a straight flank, which no curve of the file tells. The flank is
@@ -318,10 +404,10 @@ void OpenSide::find_joints()
       for (const int way : {-1, 1})
       {
          const int next = i - way;
-         const bool fits = tells(next)
-                              ? fits_flank(i, way) &&
-                                   (std::abs(turn_[next]) <= flat_ || fits_flank(next, -way))
-                              : fits_flank(i, way, 1e-3);
+         const bool fits =
+            tells(next) ? fits_flank(i, way) &&
+                             (std::abs(turn_[next]) <= flat(next) || fits_flank(next, -way))
+                        : fits_flank(i, way, 1e-3);
          if (fits) { found[i] = way; }
       }
    }
@@ -391,10 +477,9 @@ void OpenSide::meet(std::vector<EdgeBend> &all) const
    }
 }
 
-std::vector<EdgeBend> OpenSide::bends()
+/// Corners, and joints between arcs and flanks.
+void OpenSide::classify()
 {
-   std::vector<EdgeBend> all(edges_);
-   if (last() < 2) { return all; }
    measure();
    join_curves();
    if (!find_corners())
@@ -403,23 +488,119 @@ std::vector<EdgeBend> OpenSide::bends()
       joined_.assign(x_.size(), false);
       find_corners();
    }
+   distinct_ = corner_;
    find_short_runs();
-   if (drop_profile())
-   {
-      for (int i = 1; i < last(); ++i) { corner_[i] = corner_[i] || !inside(i); }
-   }
+   drop_profile();
+   find_short_runs(); // of what a profile has left
    find_joints();
+}
+
+std::vector<EdgeBend> OpenSide::all_bends() const
+{
    std::vector<EdgeBend> found;
    for (int e = 0; e < last(); ++e) { found.push_back(bend(e)); }
    meet(found);
-   // Round-off of coordinates is no curve.
-   const double least = 1e-6;
+   return found;
+}
+
+/// Those of the side's own edges, where they are more than round-off.
+std::vector<EdgeBend> OpenSide::of_edges(const std::vector<EdgeBend> &all) const
+{
+   std::vector<EdgeBend> own(edges_);
    for (std::size_t k = 0; k < edges_; ++k)
    {
-      const EdgeBend &its = found[first_ + k];
-      if (std::max(std::abs(its.begin), std::abs(its.end)) > least) { all[k] = its; }
+      const EdgeBend &its = all[first_ + k];
+      if (std::max(std::abs(its.begin), std::abs(its.end)) > round_off) { own[k] = its; }
    }
-   return all;
+   return own;
+}
+
+std::vector<EdgeBend> OpenSide::bends()
+{
+   if (last() < 2) { return std::vector<EdgeBend>(edges_); }
+   classify();
+   return of_edges(all_bends());
+}
+
+bool OpenSide::meets_image(bool end) const
+{
+   const int tip = tip_[end], step = end ? -1 : 1;
+   if (tip < 0 || last() < 2) { return true; }
+   if (corner_[tip]) { return false; }
+   const int near = tip + step, far = near + step;
+   // A flank between the tip and an arc must be across the plane.
+   if (joint_[near] != 0) { return std::abs(turn_[tip]) <= flat(tip); }
+   if (!tells(near)) { return true; }
+   // The turn at the tip if the curvature beside it goes on, constant or linear.
+   const int edge = end ? tip - 1 : tip;
+   const double alike = 2 * arc(edge, curvature_[near]);
+   double linear = alike;
+   if (tells(far))
+   {
+      const double change =
+         (curvature_[far] - curvature_[near]) / (centre_[far] - centre_[near]);
+      linear = 2 * arc(edge, curvature_[near] + change * (along_[tip] - centre_[near]));
+   }
+   return std::abs(turn_[tip] - linear) <=
+          0.1 * std::abs(alike) + std::abs(linear - alike) + round_off;
+}
+
+std::vector<EdgeBend> OpenSide::possible() const
+{
+   std::vector<EdgeBend> own(edges_);
+   if (last() < 2) { return own; }
+   const auto kept = [&](int i)
+   { return i > 0 && i < last() && corner_[i] && !distinct_[i] && !inside(i) && !parts(i); };
+   const auto goes_on = [&](int i) // from i - 1
+   {
+      const double a = curvature_[i - 1], b = curvature_[i];
+      return kept(i) && a * b > 0 &&
+             std::max(std::abs(a), std::abs(b)) <= 2 * std::min(std::abs(a), std::abs(b));
+   };
+   const auto ends = [&](int i)
+   {
+      return i == 0 || i == last() ||
+             (distinct_[i] && std::abs(turn_[i]) > SidePolygon::corner * degree);
+   };
+   OpenSide released = *this;
+   std::vector<bool> may(last(), false); // of edges
+   for (int begin = 1, end = 1; begin < last(); begin = end)
+   {
+      end = begin + 1;
+      if (!kept(begin)) { continue; }
+      while (end < last() && goes_on(end)) { ++end; }
+      // Two turns are those of a chamfer, unless they are all that there is between two corners
+      // and the edges are as long as each other.
+      const auto first = length_.begin() + begin - 1, beyond = length_.begin() + end;
+      const bool alone =
+         ends(begin - 1) && ends(end) &&
+         *std::max_element(first, beyond) <= 1.5 * *std::min_element(first, beyond);
+      if (end - begin < 3 && !(end - begin == 2 && alone)) { continue; }
+      for (int i = begin; i < end; ++i) { released.corner_[i] = false; }
+      const int from = ends(begin - 1) ? begin - 1 : begin, to = ends(end) ? end : end - 1;
+      for (int e = from; e < to; ++e) { may[e] = curve_[e] < 0; }
+   }
+   released.find_joints();
+   own = of_edges(released.all_bends());
+   for (std::size_t k = 0; k < edges_; ++k)
+   {
+      if (!may[first_ + k]) { own[k] = {}; }
+   }
+   return own;
+}
+
+/// A side whose bends are known, without images that it does not meet.
+OpenSide settled(SidePolygon side)
+{
+   OpenSide open(side);
+   open.bends();
+   const std::array<bool, 2> meets{open.meets_image(false), open.meets_image(true)};
+   if (meets[0] && meets[1]) { return open; }
+   for (const std::size_t end : {0, 1})
+   {
+      if (!meets[end]) { side.beyond[end].setZero(); }
+   }
+   return OpenSide(side);
 }
 
 } // namespace
@@ -433,9 +614,24 @@ double EdgeBend::off(double s) const
    return arc + 0.5 * (std::tan(begin) - std::tan(end)) * s * (1 - s) * (1 - 2 * s);
 }
 
+double EdgeBend::slope(double s) const
+{
+   const double mean = 0.5 * (begin + end), sine = std::sin(mean), from = s - 0.5;
+   const double arc = -2 * sine * from / std::sqrt(1 - 4 * sine * sine * from * from);
+   return arc + 0.5 * (std::tan(begin) - std::tan(end)) * (1 - 6 * s * (1 - s));
+}
+
 std::vector<EdgeBend> smooth_curve(const SidePolygon &side)
 {
-   return side.vertices.size() < 2 ? std::vector<EdgeBend>() : OpenSide(side).bends();
+   return side.vertices.size() < 2 ? std::vector<EdgeBend>() : settled(side).bends();
+}
+
+std::vector<EdgeBend> possible_curve(const SidePolygon &side)
+{
+   if (side.vertices.size() < 2) { return {}; }
+   OpenSide open = settled(side);
+   open.bends();
+   return open.possible();
 }
 
 } // namespace cattaneo

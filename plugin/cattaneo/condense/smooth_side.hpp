@@ -20,6 +20,8 @@ struct EdgeBend
    /// How far to the right of the chord the curve is at 0 <= s <= 1 along it, in lengths of the
    /// edge.
    double off(double s) const;
+   /// Its derivative by s, the tangent of the angle between curve and chord there.
+   double slope(double s) const;
    /// The same seen from the other end.
    EdgeBend reversed() const { return {end, begin}; }
 };
@@ -30,6 +32,7 @@ struct SideChord
    Eigen::Vector2d from; ///< the body on the left
    Eigen::Vector2d to;   ///< the other end
    EdgeBend bend;        ///< of the curve against its chord
+   EdgeBend possible;    ///< of possible_curve(), where the side is kept a polygon
 };
 
 /// What is said of a side whose vertices may lie on smooth curves.
@@ -40,9 +43,9 @@ struct SidePolygon
    /// The curve of the file that each edge is on (an entity of Gmsh), -1: not known. Empty: of
    /// none.
    std::vector<int> curves = {};
-   /// Directions in which the boundary goes on beyond the ends, zero: not known. Where that is
-   /// nearly across the side it may be a plane or an axis of symmetry, beyond which the curve
-   /// goes on as its mirror image.
+   /// Directions in which the boundary goes on beyond the ends, zero: not known, or no plane of
+   /// symmetry. Where that is nearly across the side, and the side meets its mirror image there
+   /// as smoothly as it goes on within, the curve goes on as that image.
    std::array<Eigen::Vector2d, 2> beyond{Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0)};
 
    static constexpr double corner = 31;        ///< degrees: a circle of twelve edges has 30
@@ -59,7 +62,8 @@ struct SidePolygon
     2. The run of turns. A vertex is a corner that turns much more, or less, than the vertices
        beside it let expect: a chamfer with straight flanks. Where no curve is known an arc has
        four turns in a row in one direction, or three alike: less is taken for a chamfer. Where
-   a third of the vertices are such corners the side is a profile of points, which is left.
+       a third of the vertices around one are corners that turn to and fro it is one of a
+       profile of points, which is left.
     3. The angle: a turn of more than `corner` degrees (within one of the file's curves
        `corner_within`) is a corner.
 
@@ -69,5 +73,12 @@ struct SidePolygon
     of their vertices; other curves are met to the fourth order of the edges' length. Open ends
     are one-sided, or mirrored (SidePolygon::beyond), loops periodic. */
 std::vector<EdgeBend> smooth_curve(const SidePolygon &side);
+
+/** The arcs that edges may be chords of where smooth_curve() keeps a polygon for want of
+    evidence: vertices that turn alike, but too few of them, or amid others that turn to and
+   fro. Straight elsewhere, above all at corners and where the file says that edges are
+   straight. Gaps are not measured on these curves, but estimates of what chords change have
+   them. */
+std::vector<EdgeBend> possible_curve(const SidePolygon &side);
 
 } // namespace cattaneo

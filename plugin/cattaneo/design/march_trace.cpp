@@ -35,6 +35,9 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
                        ContactState &state, const MarchSettings &settings)
 {
    MarchTrace trace;
+   MarchSettings every = settings;
+   every.every_event = true; // derivatives are those of straight pieces
+
    trace.number = next_number();
    trace.history = history;
    trace.follows_path = settings.stepping != Stepping::fixed;
@@ -47,7 +50,7 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
       const double share = std::clamp((now.time - at.start) / at.duration(), 0.0, 1.0);
       trace.states.push_back({now, at.point, share, record.event});
    };
-   trace.report = march(problem, history, state, settings, observe);
+   trace.report = march(problem, history, state, every, observe);
    require(trace.report.taken_up_clearance == 0,
            "trace of march: what is free touches nothing at rest, and was moved by ",
            trace.report.taken_up_clearance,

@@ -145,6 +145,20 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
    }
 }
 
+std::vector<int> supported_attributes(const std::string &called, const std::string &text,
+                                      const BodyTerms &terms)
+{
+   std::vector<int> all;
+   for (const std::string &statement : split(text, " ;\t\n"))
+   {
+      const std::string place = statement.substr(0, statement.find(':'));
+      if (place[0] == '@') { continue; }
+      const BoundaryPart part = boundary_part(called + " '" + statement + "'", place, terms);
+      all.insert(all.end(), part.attributes.begin(), part.attributes.end());
+   }
+   return all;
+}
+
 void add_loads(ElasticBody &body, const std::string &called, const std::string &text,
                const BodyTerms &terms)
 {

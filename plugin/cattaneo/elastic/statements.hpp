@@ -40,6 +40,11 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
                   const BodyTerms &terms = {});
 
+/// Boundary attributes that supports hold, along whichever component; nodes at points are none.
+/// InputError as of add_supports().
+std::vector<int> supported_attributes(const std::string &called, const std::string &text,
+                                      const BodyTerms &terms = {});
+
 /// Loads, separated by semicolons, each "PATTERN KIND WHERE VALUES": "P pressure 3 100", "Q
 /// traction 3 0.5 0", "G body-force 0 -9.81", "D displacement-x 3[0<y<1] 0.01", "H temperature
 /// 20+3*y", "E initial-strain 1e-4" or "E initial-strain xx yy xy zz" (rr, zz, rz and θθ about

@@ -1,8 +1,14 @@
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cattaneo/exchange/input_deck.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
+#include <cattaneo/exchange/off_plane.hpp>
 #include <cattaneo/exchange/outer_edges.hpp>
+#include <cattaneo/words.hpp>
+#include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -38,45 +44,104 @@ std::size_t corners_of(const std::string &type)
    return nodes == 3 || nodes == 6 ? 3 : nodes == 4 || nodes == 8 ? 4 : 0;
 }
 
+/// A side of an element that a surface names, -1: all of its outer ones.
+struct Face
+{
+   std::string surface, place;
+   std::size_t element = 0;
+   int side = -1;
+};
+
+/// A part, an instance, or what a deck without parts has.
+struct Block
+{
+   std::string name; ///< of an instance or a part, else empty
+   InputDeck deck;
+   std::map<int, std::size_t> index; ///< of elements by their numbers
+   std::map<int, double> z;          ///< of nodes, where it is not 0
+   std::vector<Face> faces;
+   std::optional<Formulation> formulation; ///< of its elements
+
+   bool has_nodes() const { return !deck.places.empty(); }
+   /// In a map of sets, by a name in capitals with or without that of the instance.
+   template <class Sets>
+   auto find(Sets &sets, const std::string &set) const
+   {
+      for (const std::string &spelled : {set, name + "." + set, without_instance(set)})
+      {
+         const auto found = sets.find(spelled);
+         if (found != sets.end()) { return found; }
+      }
+      return sets.end();
+   }
+   static std::string without_instance(const std::string &set)
+   {
+      return set.substr(std::min(set.rfind('.') + 1, set.size()));
+   }
+};
+
+/// Turns and moves a block.
+struct Placement
+{
+   Eigen::Vector2d shift{0, 0}, centre{0, 0};
+   double lift = 0, angle = 0; ///< along z, about it
+};
+
 class DeckReader
 {
 public:
-   InputDeck deck;
-
+   explicit DeckReader(DeckUse use) : use_(use) {}
    void read(const std::string &file, int depth);
    /// What can be said of all of it.
-   void finish(const std::string &file);
+   InputDeck finish(const std::string &file, const DeckPart &part);
 
 private:
    void begin(LineReader &in, int depth);
    void begin_card(const LineReader &in);
+   void require_known(const LineReader &in) const;
+   void begin_block(const LineReader &in);
    void data(LineReader &in);
+   void place_instance(const LineReader &in, const std::vector<std::string_view> &fields);
    void node(const LineReader &in, const std::vector<std::string_view> &fields);
    void element(LineReader &in);
+   void elastic(const LineReader &in, const std::vector<std::string_view> &fields);
    void members(const LineReader &in, const std::vector<std::string_view> &fields);
    void surface(const LineReader &in, const std::vector<std::string_view> &fields);
    void load(const LineReader &in, const std::vector<std::string_view> &fields);
    void support(const LineReader &in, const std::vector<std::string_view> &fields);
-   InputDeck::Nodes nodes_of(const LineReader &in, std::string_view name) const;
+   /// Where nodes and elements go that a card names by numbers alone.
+   Block &home();
+   /// Those that a name in a card may speak of.
+   std::vector<Block *> blocks_of(const LineReader &in, std::string_view name);
+   template <class Found>
+   struct In
+   {
+      Block *block;
+      std::vector<Found> members;
+   };
+   std::vector<In<int>> nodes_of(const LineReader &in, std::string_view name);
+   std::vector<int> nodes_of_one(const LineReader &in, std::string_view name);
    /// Indices of an element, or of a set of them.
-   std::vector<std::size_t> elements_of(const LineReader &in, std::string_view name) const;
+   std::vector<In<std::size_t>> elements_of(const LineReader &in, std::string_view name);
    /// From GENERATE's first, last and step, of the numbers that there are.
    template <class Has>
    std::vector<int> generated(const LineReader &in, const std::vector<std::string_view> &fields,
                               Has has) const;
+   Block &chosen(const std::string &file, const DeckPart &part);
 
+   DeckUse use_;
    Keyword keyword_;
-   int parts_ = 0, loads_ = 0, displacements_ = 0;
-   std::optional<Formulation> formulation_;
-   std::map<int, std::size_t> index_; ///< of elements by their numbers
-   /// A side of an element that a surface names, -1: all of its outer ones.
-   struct Face
-   {
-      std::string surface, place;
-      std::size_t element = 0;
-      int side = -1;
-   };
-   std::vector<Face> faces_;
+   int loads_ = 0, displacements_ = 0, instance_lines_ = 0;
+   std::string material_;
+   std::set<std::string> unknown_materials_; ///< that are not isotropic, or change
+   Block whole_;
+   std::map<std::string, Block> parts_;
+   std::vector<std::unique_ptr<Block>> instances_;
+   Block *part_ = nullptr; ///< that is being read
+   std::set<std::string> keywords_;
+   std::vector<Card> cards_;
+   std::map<std::string, DeckMaterial> materials_;
+   bool is_axisymmetric_ = false;
 };
 
 /// A set that is named or listed several times has each member once, in the order of the file.
@@ -86,12 +151,6 @@ void drop_repeated(std::vector<Member> &members)
    std::set<Member> seen;
    const auto again = [&](Member member) { return !seen.insert(member).second; };
    members.erase(std::remove_if(members.begin(), members.end(), again), members.end());
-}
-
-/// "instance.set" and "set", in capitals.
-std::string plain_name(std::string_view name)
-{
-   return upper_case(name.substr(std::min(name.rfind('.') + 1, name.size())));
 }
 
 std::string place(const LineReader &in)
@@ -111,10 +170,7 @@ void DeckReader::read(const std::string &file, int depth)
    while (in.next())
    {
       const std::string_view line = trimmed(in.line());
-      if (upper_case(line) == "** AXISYMMETRIC")
-      {
-         deck.formulation = Formulation::axisymmetric;
-      }
+      if (upper_case(line) == "** AXISYMMETRIC") { is_axisymmetric_ = true; }
       if (line.substr(0, 2) == "**") { continue; }
       if (line[0] == '*') { begin(in, depth); }
       else { data(in); }
@@ -157,16 +213,22 @@ void DeckReader::begin(LineReader &in, int depth)
    begin_card(in);
 }
 
-void DeckReader::begin_card(const LineReader &in)
+/// InputError for cards that would make the body another one than is read.
+void DeckReader::require_known(const LineReader &in) const
 {
    const std::string &name = keyword_.name;
-   deck.keywords.insert(name);
-   if (name == "INITIAL CONDITIONS")
-   {
-      deck.keywords.insert(name + ", TYPE=" + keyword_.parameters["TYPE"]);
-   }
-   in.require(name != "TRANSFORM", "*TRANSFORM turns directions of nodes, must be left out: "
-                                   "everything is read in x and y");
+   static const std::set<std::string> makers = {"NGEN",  "NFILL",  "NCOPY",  "NMAP",
+                                                "ELGEN", "ELCOPY", "SYSTEM", "IMPORT"};
+   in.require(makers.count(name) == 0, "*", name,
+              " makes or moves nodes or elements, which is not followed, must be left out: "
+              "write them out in a deck of the program that made it");
+   const bool has_mesh = name == "NODE" || name == "ELEMENT" || name == "NSET" ||
+                         name == "ELSET" || name == "SURFACE";
+   in.require(!has_mesh || keyword_.parameter("INPUT").empty(), "*", name,
+              " has its lines in a file of its own (INPUT=), must have them here, or in an "
+              "*INCLUDE");
+   in.require(name != "NODE" || keyword_.parameter("SYSTEM").substr(0, 1) != "C",
+              "*NODE has cylindrical coordinates (SYSTEM=C), must have x and y");
    static const std::set<std::string> couplings = {"EQUATION",
                                                    "MPC",
                                                    "RIGID BODY",
@@ -175,41 +237,122 @@ void DeckReader::begin_card(const LineReader &in)
                                                    "DISTRIBUTING",
                                                    "DISTRIBUTING COUPLING",
                                                    "KINEMATIC COUPLING",
+                                                   "EMBEDDED ELEMENT",
                                                    "TIE",
-                                                   "PRE-TENSION SECTION",
-                                                   "CONTACT PAIR",
                                                    "CYCLIC SYMMETRY MODEL"};
    in.require(couplings.count(name) == 0, "*", name,
               " makes nodes depend on others, whose rows "
+              "are not their own then, must be left out",
+              use_ == DeckUse::stiffness ? ""
+              : name == "TIE"
+                 ? ": say in the case that these sides are an interface that is tied"
+                 : ": say in the case what holds or moves the body (a support, a guide)");
+   if (use_ == DeckUse::mesh) { return; }
+   in.require(name != "TRANSFORM", "*TRANSFORM turns directions of nodes, must be left out: "
+                                   "everything is read in x and y");
+   in.require(name != "CONTACT PAIR" && name != "PRE-TENSION SECTION", "*", name,
+              " makes nodes depend on others, whose rows "
               "are not their own then, must be left out");
-   parts_ += name == "PART";
-   in.require(parts_ < 2, "a second *PART begins, there must be one: node numbers of several "
-                          "are not told apart");
+}
+
+/// *PART, *INSTANCE and their ends.
+void DeckReader::begin_block(const LineReader &in)
+{
+   const std::string &name = keyword_.name, called = keyword_.parameter("NAME");
+   if (name == "END PART" || name == "ASSEMBLY") { part_ = nullptr; }
+   if (name == "PART")
+   {
+      in.require(parts_.count(called) == 0, "the *PART '", called,
+                 "' is there a second time, must be there once");
+      part_ = &parts_[called];
+      part_->name = called;
+   }
+   if (name != "INSTANCE") { return; }
+   part_ = nullptr;
+   instance_lines_ = 0;
+   const std::string of = keyword_.parameter("PART");
+   const auto part = parts_.find(of);
+   in.require(part != parts_.end(), "the *INSTANCE '", called, "' is of the part '", of,
+              "', which must be there before it");
+   in.require(use_ == DeckUse::mesh || instances_.empty(),
+              "a second *INSTANCE begins, beside a "
+              "matrix there must be one: node "
+              "numbers of several are not told "
+              "apart");
+   for (const auto &other : instances_)
+   {
+      in.require(other->name != called, "the *INSTANCE '", called,
+                 "' is there a second time, must be there once");
+   }
+   auto made = std::make_unique<Block>(part->second);
+   made->name = called;
+   // Sets of the part have the name of the instance before theirs, so that those of the
+   // assembly may be called alike.
+   const auto rename = [&](auto &sets)
+   {
+      auto renamed = std::move(sets);
+      sets.clear();
+      for (auto &[set, members] : renamed) { sets[called + "." + set] = std::move(members); }
+   };
+   rename(made->deck.node_sets);
+   rename(made->deck.element_sets);
+   for (Face &face : made->faces) { face.surface = called + "." + face.surface; }
+   instances_.push_back(std::move(made));
+}
+
+void DeckReader::begin_card(const LineReader &in)
+{
+   const std::string &name = keyword_.name;
+   keywords_.insert(name);
+   if (name == "INITIAL CONDITIONS")
+   {
+      keywords_.insert(name + ", TYPE=" + keyword_.parameters["TYPE"]);
+   }
+   require_known(in);
+   begin_block(in);
+   if (name == "MATERIAL") { material_ = keyword_.parameter("NAME"); }
+   if (name == "ELASTIC")
+   {
+      const std::string type = keyword_.parameter("TYPE");
+      if (!type.empty() && type.substr(0, 3) != "ISO") { unknown_materials_.insert(material_); }
+   }
    if (name == "SOLID SECTION")
    {
-      ++deck.sections;
-      const auto set = deck.element_sets.find(plain_name(keyword_.parameter("ELSET")));
-      if (set == deck.element_sets.end()) { return; }
-      for (std::size_t e : set->second) { deck.elements[e].section = deck.sections; }
+      const std::string set = upper_case(keyword_.parameter("ELSET"));
+      bool found = false;
+      for (Block *block : blocks_of(in, set))
+      {
+         const auto its = block->find(block->deck.element_sets, set);
+         if (its == block->deck.element_sets.end()) { continue; }
+         found = true;
+         block->deck.sections.push_back(keyword_.parameter("MATERIAL"));
+         for (std::size_t e : its->second)
+         {
+            block->deck.elements[e].section = static_cast<int>(block->deck.sections.size());
+         }
+      }
+      if (!found) { home().deck.sections.push_back(keyword_.parameter("MATERIAL")); }
    }
    const std::string elements = keyword_.parameter("ELSET");
    if (name == "NSET" && !elements.empty())
    {
-      for (std::size_t e : elements_of(in, elements))
+      for (const auto &[block, some] : elements_of(in, elements))
       {
-         for (int node : deck.elements[e].nodes)
+         InputDeck::Nodes &set = block->deck.node_sets[keyword_.parameter("NSET")];
+         for (std::size_t e : some)
          {
-            deck.node_sets[keyword_.parameter("NSET")].push_back(node);
+            const InputDeck::Nodes &nodes = block->deck.elements[e].nodes;
+            set.insert(set.end(), nodes.begin(), nodes.end());
          }
       }
    }
    if (name == "CLOAD")
    {
-      deck.cards.push_back({"CLOAD" + std::to_string(++loads_), Control::force, {}});
+      cards_.push_back({"CLOAD" + std::to_string(++loads_), Control::force, {}});
    }
    if (name == "BOUNDARY")
    {
-      deck.cards.push_back(
+      cards_.push_back(
          {"BOUNDARY" + std::to_string(++displacements_), Control::displacement, {}});
    }
 }
@@ -223,18 +366,94 @@ void DeckReader::data(LineReader &in)
    else if (name == "ELEMENT") { element(in); }
    else if (name == "NSET" || name == "ELSET") { members(in, fields); }
    else if (name == "SURFACE") { surface(in, fields); }
-   else if (name == "CLOAD") { load(in, fields); }
-   else if (name == "BOUNDARY") { support(in, fields); }
-   else if (name == "INSTANCE")
-   {
-      in.require(false, "an instance is moved, must be where its part is");
-   }
+   else if (name == "INSTANCE") { place_instance(in, fields); }
+   else if (name == "ELASTIC") { elastic(in, fields); }
    else if (name == "SOLID SECTION" && !fields[0].empty())
    {
       const double thickness = in.number(fields[0], "the thickness of *SOLID SECTION");
       in.require(thickness == 1, "the thickness of *SOLID SECTION is ", thickness,
                  ", must be 1: everything is per unit thickness");
    }
+   // Those of a mesh are in the case.
+   else if (name == "CLOAD" && use_ == DeckUse::stiffness) { load(in, fields); }
+   else if (name == "BOUNDARY" && use_ == DeckUse::stiffness) { support(in, fields); }
+}
+
+/// First line: how far it is moved. Second: an axis by two points, and an angle in degrees by
+/// which it is turned then.
+void DeckReader::place_instance(const LineReader &in,
+                                const std::vector<std::string_view> &fields)
+{
+   ++instance_lines_;
+   const std::size_t count = instance_lines_ == 1 ? 3 : 7;
+   in.require(instance_lines_ < 3 && (fields.size() == count || instance_lines_ == 1), "line ",
+              instance_lines_, " of *INSTANCE has ", fields.size(),
+              " numbers, must be one of 3 (how far it is moved) and one of 7 (two points of an "
+              "axis, an angle)");
+   std::array<double, 7> x{};
+   for (std::size_t k = 0; k < std::min(count, fields.size()); ++k)
+   {
+      if (!fields[k].empty()) { x[k] = in.number(fields[k], "a number of *INSTANCE"); }
+   }
+   Block &block = *instances_.back();
+   if (instance_lines_ == 1)
+   {
+      for (auto &[node, place] : block.deck.places)
+      {
+         place += Eigen::Vector2d(x[0], x[1]);
+         if (x[2] != 0) { block.z[node] += x[2]; }
+      }
+      return;
+   }
+   const Eigen::Vector2d centre(x[0], x[1]);
+   const double across = std::hypot(x[3] - x[0], x[4] - x[1]), up = x[5] - x[2];
+   in.require(x[6] == 0 || across <= 1e-9 * std::abs(up),
+              "the axis about which the *INSTANCE '", block.name,
+              "' is turned has the direction (", x[3] - x[0], ", ", x[4] - x[1], ", ", up,
+              "), must be along z: bodies are plane");
+   constexpr double degree = 0.017453292519943295;
+   const Eigen::Rotation2Dd turn((up < 0 ? -x[6] : x[6]) * degree);
+   for (auto &[node, place] : block.deck.places)
+   {
+      place = centre + turn * (place - centre).eval();
+   }
+}
+
+Block &DeckReader::home()
+{
+   if (part_) { return *part_; }
+   const std::string instance = keyword_.parameter("INSTANCE");
+   for (const auto &block : instances_)
+   {
+      if (block->name == instance) { return *block; }
+   }
+   // Beside a matrix there is one instance, and all numbers are of it; the assembly of a mesh
+   // may have points of its own.
+   if (use_ == DeckUse::stiffness && instances_.size() == 1) { return *instances_[0]; }
+   const bool only_part = parts_.size() == 1 && instances_.empty() && !whole_.has_nodes();
+   return only_part ? parts_.begin()->second : whole_;
+}
+
+std::vector<Block *> DeckReader::blocks_of(const LineReader &in, std::string_view name)
+{
+   const std::string instance = keyword_.parameter("INSTANCE"), set = upper_case(name),
+                     before = set.substr(0, std::min(set.rfind('.'), set.size()));
+   if (part_) { return {part_}; }
+   for (const auto &block : instances_)
+   {
+      if (block->name == instance || (instance.empty() && block->name == before))
+      {
+         return {block.get()};
+      }
+   }
+   in.require(instance.empty() || instances_.empty(), "there is no *INSTANCE '", instance,
+              "' before this line");
+   std::vector<Block *> blocks{&home()};
+   for (const auto &block : instances_)
+   {
+      if (block.get() != blocks[0]) { blocks.push_back(block.get()); }
+   }
+   return blocks;
 }
 
 void DeckReader::node(const LineReader &in, const std::vector<std::string_view> &fields)
@@ -247,11 +466,25 @@ void DeckReader::node(const LineReader &in, const std::vector<std::string_view> 
                                in.number(fields[2], "y of a node"));
    const double z =
       fields.size() > 3 && !fields[3].empty() ? in.number(fields[3], "z of a node") : 0;
-   in.require(z == 0, "node ", number, " is at z = ", z, ", must be in the plane z = 0");
-   in.require(deck.places.emplace(number, place).second, "node ", number,
+   Block &block = home();
+   if (z != 0) { block.z[number] = z; }
+   in.require(block.deck.places.emplace(number, place).second, "node ", number,
               " is there a second time, must be there once");
    const std::string set = keyword_.parameter("NSET");
-   if (!set.empty()) { deck.node_sets[set].push_back(number); }
+   if (!set.empty()) { block.deck.node_sets[set].push_back(number); }
+}
+
+void DeckReader::elastic(const LineReader &in, const std::vector<std::string_view> &fields)
+{
+   if (unknown_materials_.count(material_)) { return; }
+   // A second line is of another temperature.
+   if (fields.size() < 2 || materials_.count(material_))
+   {
+      unknown_materials_.insert(material_);
+      return;
+   }
+   materials_[material_] = {in.number(fields[0], "Young's modulus of *ELASTIC"),
+                            in.number(fields[1], "Poisson's ratio of *ELASTIC")};
 }
 
 void DeckReader::element(LineReader &in)
@@ -268,8 +501,10 @@ void DeckReader::element(LineReader &in)
    if (made.nodes.empty()) { return; }
    made.number = made.nodes.front();
    made.nodes.erase(made.nodes.begin());
-   in.require(index_.emplace(made.number, deck.elements.size()).second, "element ", made.number,
-              " is there a second time, must be there once");
+   Block &block = home();
+   InputDeck &deck = block.deck;
+   in.require(block.index.emplace(made.number, deck.elements.size()).second, "element ",
+              made.number, " is there a second time, must be there once");
    const std::string set = keyword_.parameter("ELSET");
    if (!set.empty()) { deck.element_sets[set].push_back(deck.elements.size()); }
    in.require(made.corners != 2 || made.nodes.size() > 1, "element ", made.number, " is a ",
@@ -281,9 +516,9 @@ void DeckReader::element(LineReader &in)
                  " of ", made.nodes.size(), " nodes, must have ", count);
       const Formulation formulation =
          made.type[1] == 'A' ? Formulation::axisymmetric : Formulation::plane;
-      in.require(!formulation_ || *formulation_ == formulation,
+      in.require(!block.formulation || *block.formulation == formulation,
                  "there are plane and axisymmetric elements, must be of one kind");
-      formulation_ = deck.formulation = formulation;
+      block.formulation = formulation;
       for (int node : made.nodes)
       {
          in.require(deck.places.count(node) == 1, "element ", made.number, " has node ", node,
@@ -293,36 +528,69 @@ void DeckReader::element(LineReader &in)
    deck.elements.push_back(std::move(made));
 }
 
-InputDeck::Nodes DeckReader::nodes_of(const LineReader &in, std::string_view name) const
+std::vector<DeckReader::In<int>> DeckReader::nodes_of(const LineReader &in,
+                                                      std::string_view name)
 {
-   if (is_number(name)) { return {in.integer(name, "a node")}; }
-   const auto found = deck.node_sets.find(plain_name(name));
-   if (found != deck.node_sets.end()) { return found->second; }
-   const auto of_elements = deck.element_sets.find(plain_name(name));
-   in.require(of_elements != deck.element_sets.end(), "there is no set '", name,
-              "' before this line");
-   InputDeck::Nodes nodes;
-   for (std::size_t e : of_elements->second)
+   if (is_number(name)) { return {{&home(), {in.integer(name, "a node")}}}; }
+   const std::string set = upper_case(name);
+   std::vector<In<int>> found;
+   for (Block *block : blocks_of(in, name))
    {
-      nodes.insert(nodes.end(), deck.elements[e].nodes.begin(), deck.elements[e].nodes.end());
+      const InputDeck &deck = block->deck;
+      const auto its = block->find(deck.node_sets, set);
+      const auto of_elements = block->find(deck.element_sets, set);
+      const std::string number = Block::without_instance(set);
+      if (its != deck.node_sets.end()) { found.push_back({block, its->second}); }
+      else if (of_elements != deck.element_sets.end())
+      {
+         InputDeck::Nodes nodes;
+         for (std::size_t e : of_elements->second)
+         {
+            nodes.insert(nodes.end(), deck.elements[e].nodes.begin(),
+                         deck.elements[e].nodes.end());
+         }
+         found.push_back({block, nodes});
+      }
+      else if (is_number(number) && set == block->name + "." + number)
+      {
+         found.push_back({block, {in.integer(number, "a node")}});
+      }
    }
-   return nodes;
+   in.require(!found.empty(), "there is no set '", name, "' before this line");
+   return found;
 }
 
-std::vector<std::size_t> DeckReader::elements_of(const LineReader &in,
-                                                 std::string_view name) const
+std::vector<int> DeckReader::nodes_of_one(const LineReader &in, std::string_view name)
 {
-   if (is_number(name))
+   std::vector<int> all;
+   for (const auto &[block, nodes] : nodes_of(in, name))
    {
-      const int number = in.integer(name, "an element");
-      const auto found = index_.find(number);
-      in.require(found != index_.end(), "there is no element ", number, " before this line");
-      return {found->second};
+      all.insert(all.end(), nodes.begin(), nodes.end());
    }
-   const auto found = deck.element_sets.find(plain_name(name));
-   in.require(found != deck.element_sets.end(), "there is no element set '", name,
-              "' before this line");
-   return found->second;
+   return all;
+}
+
+std::vector<DeckReader::In<std::size_t>> DeckReader::elements_of(const LineReader &in,
+                                                                 std::string_view name)
+{
+   const std::string set = upper_case(name), number = Block::without_instance(set);
+   std::vector<In<std::size_t>> found;
+   for (Block *block : blocks_of(in, name))
+   {
+      if (is_number(name) && block != &home()) { continue; }
+      if (is_number(name) || (is_number(number) && set == block->name + "." + number))
+      {
+         const int element = in.integer(number, "an element");
+         const auto place = block->index.find(element);
+         in.require(place != block->index.end(), "there is no element ", element,
+                    " before this line");
+         return {{block, {place->second}}};
+      }
+      const auto its = block->find(block->deck.element_sets, set);
+      if (its != block->deck.element_sets.end()) { found.push_back({block, its->second}); }
+   }
+   in.require(!found.empty(), "there is no element set '", name, "' before this line");
+   return found;
 }
 
 template <class Has>
@@ -353,31 +621,49 @@ void DeckReader::members(const LineReader &in, const std::vector<std::string_vie
    const bool list = keyword_.parameters.count("GENERATE") == 0;
    if (kind == "NSET")
    {
-      const auto has = [&](int node) { return deck.places.count(node) == 1; };
-      InputDeck::Nodes some;
-      if (!list) { some = generated(in, fields, has); }
-      for (std::size_t k = 0; k < fields.size() && list; ++k)
+      std::vector<In<int>> some;
+      if (list)
       {
-         const InputDeck::Nodes more = nodes_of(in, fields[k]);
-         some.insert(some.end(), more.begin(), more.end());
+         for (const std::string_view field : fields)
+         {
+            for (In<int> &more : nodes_of(in, field)) { some.push_back(std::move(more)); }
+         }
       }
-      InputDeck::Nodes &nodes = deck.node_sets[set];
-      nodes.insert(nodes.end(), some.begin(), some.end());
+      else
+      {
+         const auto has = [&](int node) { return home().deck.places.count(node) == 1; };
+         some.push_back({&home(), generated(in, fields, has)});
+      }
+      for (const auto &[block, nodes] : some)
+      {
+         InputDeck::Nodes &members = block->deck.node_sets[set];
+         members.insert(members.end(), nodes.begin(), nodes.end());
+      }
       return;
    }
-   const auto has = [&](int element) { return index_.count(element) == 1; };
-   std::vector<std::size_t> some;
-   if (!list)
+   std::vector<In<std::size_t>> some;
+   if (list)
    {
-      for (int e : generated(in, fields, has)) { some.push_back(index_.at(e)); }
+      for (const std::string_view field : fields)
+      {
+         for (auto &more : elements_of(in, field)) { some.push_back(std::move(more)); }
+      }
    }
-   for (std::size_t k = 0; k < fields.size() && list; ++k)
+   else
    {
-      const std::vector<std::size_t> more = elements_of(in, fields[k]);
-      some.insert(some.end(), more.begin(), more.end());
+      Block &block = home();
+      const auto has = [&](int element) { return block.index.count(element) == 1; };
+      some.push_back({&block, {}});
+      for (int e : generated(in, fields, has))
+      {
+         some.back().members.push_back(block.index.at(e));
+      }
    }
-   std::vector<std::size_t> &elements = deck.element_sets[set];
-   elements.insert(elements.end(), some.begin(), some.end());
+   for (const auto &[block, elements] : some)
+   {
+      std::vector<std::size_t> &members = block->deck.element_sets[set];
+      members.insert(members.end(), elements.begin(), elements.end());
+   }
 }
 
 void DeckReader::surface(const LineReader &in, const std::vector<std::string_view> &fields)
@@ -385,7 +671,11 @@ void DeckReader::surface(const LineReader &in, const std::vector<std::string_vie
    const std::string type = keyword_.parameter("TYPE"), name = keyword_.parameter("NAME");
    if (type == "NODE")
    {
-      for (int node : nodes_of(in, fields[0])) { deck.node_sets[name].push_back(node); }
+      for (const auto &[block, nodes] : nodes_of(in, fields[0]))
+      {
+         InputDeck::Nodes &members = block->deck.node_sets[name];
+         members.insert(members.end(), nodes.begin(), nodes.end());
+      }
    }
    // Analytical ones and combinations are no parts of a body.
    if ((type != "ELEMENT" && !type.empty()) || !keyword_.parameter("COMBINE").empty())
@@ -400,21 +690,151 @@ void DeckReader::surface(const LineReader &in, const std::vector<std::string_vie
                  "face '", fields[1], "' of surface '", name, "', must be S1 to S4");
       side = label[1] - '1';
    }
-   for (std::size_t e : elements_of(in, fields[0]))
+   for (const auto &[block, elements] : elements_of(in, fields[0]))
    {
-      faces_.push_back({name, place(in), e, side});
+      for (std::size_t e : elements) { block->faces.push_back({name, place(in), e, side}); }
    }
 }
 
-void DeckReader::finish(const std::string &file)
+/// Only the elements of a set, with what names them and their nodes.
+void keep_elements(Block &block, const std::vector<std::size_t> &kept)
 {
+   InputDeck &deck = block.deck;
+   std::map<std::size_t, std::size_t> place; // of elements that are kept
+   std::vector<InputDeck::Element> elements;
+   std::set<int> nodes;
+   for (std::size_t e : kept)
+   {
+      if (!place.emplace(e, elements.size()).second) { continue; }
+      nodes.insert(deck.elements[e].nodes.begin(), deck.elements[e].nodes.end());
+      elements.push_back(deck.elements[e]);
+   }
+   // Lines that name a part of the boundary go with the elements along them.
+   for (std::size_t e = 0; e < deck.elements.size(); ++e)
+   {
+      const InputDeck::Element &line = deck.elements[e];
+      const auto of_it = [&](int node) { return nodes.count(node) == 1; };
+      if (line.corners != 2 || !std::all_of(line.nodes.begin(), line.nodes.end(), of_it) ||
+          !place.emplace(e, elements.size()).second)
+      {
+         continue;
+      }
+      elements.push_back(line);
+   }
+   deck.elements = std::move(elements);
+   for (auto set = deck.element_sets.begin(); set != deck.element_sets.end();)
+   {
+      std::vector<std::size_t> left;
+      for (std::size_t e : set->second)
+      {
+         if (place.count(e)) { left.push_back(place.at(e)); }
+      }
+      set->second = left;
+      set = left.empty() ? deck.element_sets.erase(set) : std::next(set);
+   }
+   for (auto set = deck.node_sets.begin(); set != deck.node_sets.end();)
+   {
+      InputDeck::Nodes &its = set->second;
+      its.erase(std::remove_if(its.begin(), its.end(),
+                               [&](int node) { return nodes.count(node) == 0; }),
+                its.end());
+      set = its.empty() ? deck.node_sets.erase(set) : std::next(set);
+   }
+   for (auto at = deck.places.begin(); at != deck.places.end();)
+   {
+      at = nodes.count(at->first) ? std::next(at) : deck.places.erase(at);
+   }
+   std::vector<Face> faces;
+   for (Face &face : block.faces)
+   {
+      if (place.count(face.element) == 0) { continue; }
+      face.element = place.at(face.element);
+      faces.push_back(face);
+   }
+   block.faces = std::move(faces);
+}
+
+Block &DeckReader::chosen(const std::string &file, const DeckPart &part)
+{
+   const std::string asked = upper_case(part.name), usual = upper_case(part.usual);
+   std::vector<Block *> blocks;
+   for (const auto &block : instances_) { blocks.push_back(block.get()); }
+   if (blocks.empty() && whole_.has_nodes()) { blocks.push_back(&whole_); }
+   for (auto &[name, block] : parts_)
+   {
+      if (instances_.empty() && block.has_nodes()) { blocks.push_back(&block); }
+   }
+   require(!blocks.empty(), "file '", file, "': there is no *NODE, must be");
+   std::vector<std::string> names;
+   for (Block *block : blocks)
+   {
+      if (!block->name.empty()) { names.push_back(block->name); }
+      if (!asked.empty() && block->name == asked) { return *block; }
+   }
+   if (!asked.empty())
+   {
+      std::vector<std::string> sets;
+      for (Block *block : blocks)
+      {
+         const auto set = block->find(block->deck.element_sets, asked);
+         if (set != block->deck.element_sets.end())
+         {
+            keep_elements(*block, std::vector<std::size_t>(set->second));
+            return *block;
+         }
+         for (const auto &each : block->deck.element_sets) { sets.push_back(each.first); }
+      }
+      names.insert(names.end(), sets.begin(), sets.end());
+      require(false, "file '", file, "': there is no instance and no set of elements '",
+              part.name, "', must be one of: ", listed(names));
+   }
+   for (Block *block : blocks)
+   {
+      if (blocks.size() > 1 && !usual.empty() && block->name == usual) { return *block; }
+   }
+   require(blocks.size() == 1, "file '", file, "' has ", blocks.size(), " ",
+           instances_.empty() ? "parts" : "instances", ", ", listed(names),
+           ": each body must say which one it is (key 'part')");
+   return *blocks[0];
+}
+
+InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
+{
+   Block &block = chosen(file, part);
+   InputDeck &deck = block.deck;
+   deck.formulation = block.formulation.value_or(is_axisymmetric_ ? Formulation::axisymmetric
+                                                                  : Formulation::plane);
+   deck.keywords = std::move(keywords_);
+   deck.cards = std::move(cards_);
+   for (const auto &[name, material] : materials_)
+   {
+      if (unknown_materials_.count(name) == 0) { deck.materials[name] = material; }
+   }
    std::vector<InputDeck::Nodes> plane;
-   std::vector<int> numbers;
+   std::vector<int> numbers, used;
    for (const InputDeck::Element &element : deck.elements)
    {
+      used.insert(used.end(), element.nodes.begin(), element.nodes.end());
       if (element.corners < 3) { continue; }
       plane.push_back(element.nodes);
       numbers.push_back(element.number);
+   }
+   if (used.empty())
+   {
+      for (const auto &node : deck.places) { used.push_back(node.first); }
+   }
+   std::vector<Eigen::Vector3d> places;
+   for (int node : used)
+   {
+      const auto at = deck.places.find(node);
+      const auto z = block.z.find(node);
+      if (at == deck.places.end()) { continue; }
+      places.emplace_back(at->second[0], at->second[1], z == block.z.end() ? 0 : z->second);
+   }
+   if (const std::optional<std::size_t> off = first_off_plane(places))
+   {
+      require(false, "file '", file, "': node ", used[*off], " is at z = ", places[*off][2],
+              ", the first one at ", places[0][2], ", all must be in one plane z = const");
    }
    try
    {
@@ -429,7 +849,7 @@ void DeckReader::finish(const std::string &file)
    {
       outer[std::minmax(edge.front(), edge.back())] = &edge;
    }
-   for (const Face &face : faces_)
+   for (const Face &face : block.faces)
    {
       const InputDeck::Element &element = deck.elements[face.element];
       std::vector<InputDeck::Nodes> &edges = deck.surfaces[face.surface];
@@ -448,9 +868,24 @@ void DeckReader::finish(const std::string &file)
          if (found != outer.end()) { edges.push_back(*found->second); }
       }
    }
-   for (auto &[name, nodes] : deck.node_sets) { drop_repeated(nodes); }
-   for (auto &[name, elements] : deck.element_sets) { drop_repeated(elements); }
-   for (auto &[name, edges] : deck.surfaces) { drop_repeated(edges); }
+   // Sets of an instance have their own names again, but where the assembly has one of them.
+   const auto tidy = [&](auto &sets)
+   {
+      const std::string before = block.name + ".";
+      auto all = std::move(sets);
+      sets.clear();
+      for (auto &[name, members] : all)
+      {
+         drop_repeated(members);
+         const std::string plain =
+            name.rfind(before, 0) == 0 ? name.substr(before.size()) : name;
+         sets[plain == name || all.count(plain) == 0 ? plain : name] = std::move(members);
+      }
+   };
+   tidy(deck.node_sets);
+   tidy(deck.element_sets);
+   tidy(deck.surfaces);
+   return std::move(deck);
 }
 
 void DeckReader::load(const LineReader &in, const std::vector<std::string_view> &fields)
@@ -459,9 +894,9 @@ void DeckReader::load(const LineReader &in, const std::vector<std::string_view> 
               " fields, must have a node or set, a direction and a force");
    const int direction = in.integer(fields[1], "the direction of a force");
    const double force = in.number(fields[2], "a force");
-   for (int node : nodes_of(in, fields[0]))
+   for (int node : nodes_of_one(in, fields[0]))
    {
-      deck.cards.back().values.push_back({{node, direction}, force});
+      cards_.back().values.push_back({{node, direction}, force});
    }
 }
 
@@ -486,25 +921,23 @@ void DeckReader::support(const LineReader &in, const std::vector<std::string_vie
    }
    in.require(directions[0] >= 1, "the direction of a support is ", directions[0],
               ", must be at least 1");
-   for (int node : nodes_of(in, fields[0]))
+   for (int node : nodes_of_one(in, fields[0]))
    {
       // Across the plane nothing moves.
       for (int d = directions[0]; d <= std::min(directions[1], 2); ++d)
       {
-         deck.cards.back().values.push_back({{node, d}, value});
+         cards_.back().values.push_back({{node, d}, value});
       }
    }
 }
 
 } // namespace
 
-InputDeck read_input_deck(const std::string &file)
+InputDeck read_input_deck(const std::string &file, DeckUse use, const DeckPart &part)
 {
-   DeckReader reader;
+   DeckReader reader(use);
    reader.read(file, 0);
-   require(!reader.deck.places.empty(), "file '", file, "': there is no *NODE, must be");
-   reader.finish(file);
-   return std::move(reader.deck);
+   return reader.finish(file, part);
 }
 
 } // namespace cattaneo

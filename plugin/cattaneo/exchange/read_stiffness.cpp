@@ -5,6 +5,8 @@
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/symmetric_entries.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cattaneo/words.hpp>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -677,7 +679,18 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
            "stiffness '", matrix, "' ends with '", ending,
            "', must end with .sti, .mtx, .npy or .npz");
    const auto beside = [&](const char *of)
-   { return places.empty() ? fs::path(matrix).replace_extension(of).string() : places; };
+   {
+      if (!places.empty()) { return places; }
+      const fs::path same = fs::path(matrix).replace_extension(of);
+      // ABAQUS calls the matrices of job.inp job_STIF1.mtx, job_STIF2.mtx, …
+      std::string stem = same.stem().string();
+      const std::size_t mark = upper_case(stem).rfind("_STIF");
+      const bool numbered = mark != std::string::npos && mark + 5 < stem.size() &&
+                            std::all_of(stem.begin() + mark + 5, stem.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
+      if (fs::exists(same) || ending != ".mtx" || !numbered) { return same.string(); }
+      return (same.parent_path() / (stem.substr(0, mark) + of)).string();
+   };
    const MtxForm form = ending == ".mtx" ? form_of(matrix) : MtxForm::matrix_market;
    NodalStiffness result;
    result.name = matrix;
@@ -700,7 +713,7 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    else
    {
       const std::string deck = beside(".inp");
-      InputDeck said = read_input_deck(deck);
+      InputDeck said = read_input_deck(deck, DeckUse::stiffness);
       take_nodes(said, result);
       (ending == ".sti"          ? read_calculix
        : form == MtxForm::sparse ? read_abaqus_sparse
@@ -729,6 +742,27 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    }
    result.validate();
    return result;
+}
+
+std::string matrix_of_deck(const std::string &deck)
+{
+   namespace fs = std::filesystem;
+   const fs::path path(deck), folder = path.parent_path();
+   const std::string job = path.stem().string();
+   require(upper_case(path.extension().string()) == ".INP", "deck '", deck, "' ends with '",
+           path.extension().string(), "', must end with .inp");
+   require(fs::exists(path), "cannot read file '", deck, "'");
+   std::vector<std::string> found;
+   for (const std::string &name : {job + ".sti", job + ".mtx", job + "_STIF1.mtx"})
+   {
+      if (fs::exists(folder / name)) { found.push_back((folder / name).string()); }
+   }
+   require(found.size() == 1, "deck '", deck, "': there are ", found.size(),
+           found.empty() ? " stiffnesses beside it, must be one of " : " stiffnesses, ",
+           found.empty() ? "'" + job + ".sti', '" + job + ".mtx' or '" + job + "_STIF1.mtx'"
+                         : listed(found),
+           found.empty() ? "" : ": the key or argument 'matrix' must name one");
+   return found[0];
 }
 
 } // namespace cattaneo

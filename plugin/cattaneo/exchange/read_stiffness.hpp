@@ -10,7 +10,8 @@ namespace cattaneo
     name and the first line:
 
     - `.sti`, places in `.inp`: CalculiX, *FREQUENCY, SOLVER=MATRIXSTORAGE; rows from `.dof`
-    - `.mtx`, places in `.inp`: ABAQUS, *MATRIX GENERATE, or (dense) *USER ELEMENT, *MATRIX,
+    - `.mtx`, places in `.inp`, of the same name or of that before "_STIF1", as ABAQUS names
+      its matrices: ABAQUS, *MATRIX GENERATE, or (dense) *USER ELEMENT, *MATRIX,
       TYPE=STIFFNESS, which CalculiX writes too
     - `.mtx`, places in `.dofs`: MatrixMarket, coordinate or array
     - `.npy`, places in `.dofs`: NumPy, a dense matrix
@@ -33,5 +34,9 @@ namespace cattaneo
     InputError, in one sentence with the file and the line or the entry, for what is cut short,
     not finite, there twice, not symmetric, of rotations or a third direction. */
 NodalStiffness read_stiffness(const std::string &matrix, const std::string &places = "");
+
+/// The file of the stiffness that a deck "job.inp" writes: "job.sti" of CalculiX, "job.mtx", or
+/// "job_STIF1.mtx" of ABAQUS, beside it. InputError if there is none, or more than one.
+std::string matrix_of_deck(const std::string &deck);
 
 } // namespace cattaneo

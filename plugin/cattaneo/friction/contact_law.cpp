@@ -90,6 +90,29 @@ FrictionBound FrictionBound::straight(double p) const
    return result;
 }
 
+FrictionBound FrictionBound::of_rates(double p) const
+{
+   FrictionBound result = straight(p);
+   for (Line &line : result.lines_) { line.intercept = 0; }
+   return result;
+}
+
+double FrictionBound::bend(double p, double way) const
+{
+   double found = std::copysign(std::numeric_limits<double>::infinity(), way);
+   if (!law_) { return found; }
+   for (const Eigen::MatrixX2d *points : {&law_->forward, &law_->backward})
+   {
+      // Beyond the last point it goes straight on.
+      for (Index k = 0; k + 1 < points->rows(); ++k)
+      {
+         const double at = (*points)(k, 0);
+         if (way < 0 ? at <= p && at > found : at >= p && at < found) { found = at; }
+      }
+   }
+   return found;
+}
+
 FrictionBound friction_bound(const ReducedProblem &problem, Index i)
 {
    return problem.laws.empty() ? FrictionBound(problem.friction[i])

@@ -4,6 +4,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cattaneo
 {
@@ -24,7 +25,8 @@ void list_changes(const ContactState &from, const std::vector<NodeState> &to,
 }
 
 ExactPath::ExactPath(const ReducedProblem &problem)
-   : problem_(problem), K_(problem.K), equations_(K_, friction_bounds(problem))
+   : problem_(problem), K_(problem.K), bounds_(friction_bounds(problem)), pieces_(bounds_),
+     equations_(K_, bounds_)
 {
    require(problem.components() == 1, "exact path: the reduced problem has ",
            problem.components(), " tangential components a node, must have 1");
@@ -38,7 +40,7 @@ void ExactPath::find_choices(const ContactState &state)
    for (Index i = 0; i < n; ++i)
    {
       Choice &choice = rates_.choice[i];
-      const FrictionBound &bound = equations_.bound()[i];
+      const FrictionBound &bound = bounds_[i];
       const double q = F_[i], p = F_[n + i], way = sense(state.status[i]),
                    forward = bound.reserve(q, p, 1), backward = bound.reserve(q, p, -1);
       if (!closed(state.status[i]))
@@ -54,6 +56,75 @@ void ExactPath::find_choices(const ContactState &state)
    }
 }
 
+/// Takes the piece of a node's bound at a pressure. False if it is that already.
+bool ExactPath::take_piece(Index node, double pressure)
+{
+   const FrictionBound piece = bounds_[node].straight(pressure);
+   const auto same = [&](double sense)
+   {
+      return !pieces_[node].bends() && piece.slope(0, sense) == pieces_[node].slope(0, sense) &&
+             piece.intercept(0, sense) == pieces_[node].intercept(0, sense);
+   };
+   if (same(1) && same(-1)) { return false; }
+   pieces_[node] = piece;
+   equations_.set_bound(node, bounds_[node].of_rates(pressure));
+   return true;
+}
+
+/// The pieces of bounds that bend, at the present pressures; at a bend the one above it. True
+/// if they are others than before.
+bool ExactPath::find_pieces(const ContactState &state)
+{
+   const Index n = problem_.nodes();
+   bends_.clear();
+   bool changed = false;
+   for (Index i = 0; i < n; ++i)
+   {
+      if (!bounds_[i].bends()) { continue; }
+      const double p = closed(state.status[i]) ? std::max(F_[n + i], 0.0) : 0.0;
+      const double below = bounds_[i].bend(p, -1), above = bounds_[i].bend(p, 1);
+      const double nearest = p - below < above - p ? below : above;
+      if (std::abs(p - nearest) > noise_[i])
+      {
+         changed = take_piece(i, p) || changed;
+         continue;
+      }
+      bends_.push_back({i, nearest, 1.0});
+      changed = take_piece(i, std::nextafter(nearest, 2 * nearest)) || changed;
+   }
+   return changed;
+}
+
+/// Turns the nodes at a bend whose pressures go to its other side. False if there are none.
+bool ExactPath::turn_bends()
+{
+   const Index n = problem_.nodes();
+   const double tiny = 1e-12 * F_rate_.cwiseAbs().maxCoeff();
+   bool turned = false;
+   for (Bend &bend : bends_)
+   {
+      if (bend.side * F_rate_[n + bend.node] >= -tiny) { continue; }
+      bend.side = -bend.side;
+      take_piece(bend.node, bend.side > 0 ? std::nextafter(bend.pressure, 2 * bend.pressure)
+                                          : bend.pressure);
+      turned = true;
+   }
+   return turned;
+}
+
+/// Of the bounds of the nodes that slip, with the sense of the slip: what does not go with p.
+VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
+{
+   const Index n = problem_.nodes();
+   VectorXd constant = VectorXd::Zero(2 * n);
+   for (Index i = 0; i < n; ++i)
+   {
+      const double way = closed(states[i]) ? sense(states[i]) : 0;
+      if (way != 0) { constant[i] = way * pieces_[i].intercept(0, way); }
+   }
+   return constant;
+}
+
 /// A body that nothing but its balance keeps from turning about the node where it touches: one
 /// more node is said to touch, and shows by what it bears whether the loads turn the body.
 /// False if that is not so.
@@ -62,19 +133,19 @@ bool ExactPath::hold_pivot(std::vector<NodeState> states)
    const Index n = problem_.nodes();
    const MatrixXd free = free_motions(problem_, states);
    if (free.cols() != 1) { return false; }
-   pivot_ = free.col(0);
+   pivot_.motion = free.col(0);
    double farthest = 0;
    for (Index i = 0; i < n; ++i)
    {
       // What slips about would have its say.
-      if (closed(states[i]) && std::abs(pivot_[i]) > 1e-9) { return false; }
-      if (closed(states[i]) || std::abs(pivot_[n + i]) <= farthest) { continue; }
-      farthest = std::abs(pivot_[n + i]);
-      held_ = i;
+      if (closed(states[i]) && std::abs(pivot_.motion[i]) > 1e-9) { return false; }
+      if (closed(states[i]) || std::abs(pivot_.motion[n + i]) <= farthest) { continue; }
+      farthest = std::abs(pivot_.motion[n + i]);
+      pivot_.node = i;
    }
-   if (held_ < 0) { return false; }
-   states[held_] = NodeState::forward_slip;
-   rates_.choice[held_] = Choice::sliding;
+   if (pivot_.node < 0) { return false; }
+   states[pivot_.node] = NodeState::forward_slip;
+   rates_.choice[pivot_.node] = Choice::sliding;
    return equations_.set(states);
 }
 
@@ -83,29 +154,32 @@ bool ExactPath::hold_pivot(std::vector<NodeState> states)
 bool ExactPath::release_pivot()
 {
    const Index n = problem_.nodes();
-   rates_.choice[held_] = Choice::open;
+   rates_.choice[pivot_.node] = Choice::open;
    // The open nodes share what it bears, which balances the loads then.
    VectorXd share = VectorXd::Zero(2 * n);
    for (Index i = 0; i < n; ++i)
    {
-      if (!closed(equations_.states()[i]) || i == held_) { share[n + i] = pivot_[n + i]; }
+      if (!closed(equations_.states()[i]) || i == pivot_.node)
+      {
+         share[n + i] = pivot_.motion[n + i];
+      }
    }
-   share *= -F_rate_[n + held_] * pivot_[n + held_] / share.squaredNorm();
+   share *= -F_rate_[n + pivot_.node] * pivot_.motion[n + pivot_.node] / share.squaredNorm();
    const double round_off = 1e-13 * rates_.b.cwiseAbs().maxCoeff();
    if (share.cwiseAbs().maxCoeff() > round_off ||
        !equations_.solve(rates_.b + share, u_rate_, F_rate_))
    {
-      failure_ = "the loads turn a body about the node where it touches";
+      last_.failure = "the loads turn a body about the node where it touches";
       return false;
    }
-   F_rate_[held_] = F_rate_[n + held_] = 0;
-   const VectorXd weighted = node_lengths(problem_).replicate(2, 1).cwiseProduct(pivot_);
-   u_rate_ -= pivot_ * (weighted.dot(u_rate_) / weighted.dot(pivot_));
+   F_rate_[pivot_.node] = F_rate_[n + pivot_.node] = 0;
+   const VectorXd weighted = node_lengths(problem_).replicate(2, 1).cwiseProduct(pivot_.motion);
+   u_rate_ -= pivot_.motion * (weighted.dot(u_rate_) / weighted.dot(pivot_.motion));
    // Nodes that touch without force let it turn one way.
    double least = -std::numeric_limits<double>::infinity(), most = -least;
    for (Index i = 0; i < n; ++i)
    {
-      const double turned = pivot_[n + i];
+      const double turned = pivot_.motion[n + i];
       if (rates_.choice[i] != Choice::any || closed(equations_.states()[i]) || turned == 0)
       {
          continue;
@@ -116,44 +190,37 @@ bool ExactPath::release_pivot()
    }
    if (least > most)
    {
-      failure_ = "no rates meet the laws of contact and friction";
+      last_.failure = "no rates meet the laws of contact and friction";
       return false;
    }
-   u_rate_ += std::clamp(0.0, least, most) * pivot_;
+   u_rate_ += std::clamp(0.0, least, most) * pivot_.motion;
    return true;
 }
 
-bool ExactPath::find_rates(const ContactState &state, const VectorXd &multipliers)
+/// Gives the equations the present states, or, where these do not hold the bodies, others that
+/// do. False if there are none.
+bool ExactPath::set_states(const ContactState &state)
 {
-   const bool same_way = target_.size() == multipliers.size() && target_ == multipliers &&
-                         reached_ == state.multipliers && equations_.states() == state.status;
-   target_.resize(0);
    std::vector<NodeState> states = state.status;
-   held_ = -1;
-   ended_ = false;
-   if (!equations_.set(states))
+   if (equations_.set(states)) { return true; }
+   // Nodes that touch without force may hold a body that the others do not.
+   for (std::size_t i = 0; i < states.size(); ++i)
    {
-      // Nodes that touch without force may hold a body that the others do not.
-      for (std::size_t i = 0; i < states.size(); ++i)
-      {
-         if (rates_.choice[i] == Choice::any) { states[i] = NodeState::stick; }
-      }
-      if (!equations_.set(states) && !hold_pivot(std::move(states)))
-      {
-         failure_ = "the equations of the present states are singular";
-         return false;
-      }
-      states = equations_.states();
+      if (rates_.choice[i] == Choice::any) { states[i] = NodeState::stick; }
    }
-   ComplementarityReport known;
-   if (same_way)
-   {
-      known.x = u_rate_;
-      known.F = F_rate_;
-   }
-   ComplementarityReport found = solve_by_newton(equations_, rates_, 30, std::move(known));
+   return equations_.set(states) || hold_pivot(std::move(states));
+}
+
+/// Rates with which all nodes meet the laws: by Newton's steps from the present states, or from
+/// rates that are known there; then by Lemke's method from several starts; at last with a
+/// pivot. False if there are none.
+bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
+{
+   std::vector<NodeState> states = equations_.states();
+   ComplementarityReport found = solve_by_newton(
+      equations_, rates_, 30, known ? std::move(*known) : ComplementarityReport());
    counters_.newton_steps += found.newton_steps;
-   found_by_ = "event path";
+   last_.found_by = "event path";
    unsigned seed = 0;
    for (double slack : {1.0, 0.1, 10.0, 0.01, 1.0, 1e-3, 1.0, 0.1})
    {
@@ -162,9 +229,9 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
       if (!equations_.set(states)) { break; }
       found = solve_by_path(equations_, rates_, rest, rest, slack, ++seed);
       counters_.pivots += found.pivots;
-      found_by_ = "event path, Lemke";
+      last_.found_by = "event path, Lemke";
    }
-   if (!found.solved && held_ < 0)
+   if (!found.solved && pivot_.node < 0)
    {
       // Nodes that touch may bear nothing beside one about which a body is balanced.
       for (std::size_t i = 0; i < states.size(); ++i)
@@ -174,16 +241,55 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
       found.solved =
          hold_pivot(std::move(states)) && equations_.solve(rates_.b, found.x, found.F);
    }
-   ended_ = !found.solved;
-   if (ended_)
+   u_rate_ = std::move(found.x);
+   F_rate_ = std::move(found.F);
+   return found.solved;
+}
+
+/// Rates of displacements and forces over the rest of the way.
+bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
+{
+   // 1. The pieces of bounds that bend.
+   const bool pieces_changed = find_pieces(state);
+   // 2. Rates that were found before hold as long as pieces, states and way are the same.
+   std::optional<ComplementarityReport> known;
+   if (!pieces_changed && bends_.empty() && known_.to.size() == way.multipliers.size() &&
+       known_.to == way.multipliers && known_.from == state.multipliers &&
+       equations_.states() == state.status)
    {
-      failure_ = "no rates meet the laws of contact and friction";
-      return false;
+      known.emplace();
+      known->x = u_rate_;
+      known->F = F_rate_;
    }
-   u_rate_ = found.x;
-   F_rate_ = found.F;
-   if (held_ >= 0) { found_by_ = "event path, pivot"; }
-   return held_ < 0 || release_pivot();
+   known_.to.resize(0);
+   last_.ended = false;
+   // 3. Each node at a bend goes to one side of it, which few turns find if there is one.
+   const std::size_t most_turns = 2 * bends_.size() + 1;
+   for (std::size_t turns = 0; turns < most_turns; ++turns)
+   {
+      // 4. Equations that can be solved.
+      find_choices(state);
+      pivot_.node = -1;
+      if (!set_states(state))
+      {
+         last_.failure = "the equations of the present states are singular";
+         return false;
+      }
+      // 5. Rates that meet the laws.
+      last_.ended = !search_rates(std::exchange(known, std::nullopt));
+      if (last_.ended)
+      {
+         last_.failure = "no rates meet the laws of contact and friction";
+         return false;
+      }
+      if (turn_bends()) { continue; }
+      // 6. A node that was said to touch is let go.
+      if (pivot_.node < 0) { return true; }
+      last_.found_by = "event path, pivot";
+      return release_pivot();
+   }
+   last_.failure = "no rates are on one side of each bend of a law of friction";
+   return false;
 }
 
 /// What a node has left of its state, in forces: of its gap if it is open, else of its friction
@@ -192,7 +298,7 @@ double ExactPath::left(Index i, double sense) const
 {
    const Index m = problem_.nodes() + i;
    if (rates_.choice[i] == Choice::open) { return K_(m, m) * (u_[m] + problem_.gap[i]); }
-   return sense == 0 ? F_[m] : equations_.bound()[i].reserve(F_[i], F_[m], sense);
+   return sense == 0 ? F_[m] : bounds_[i].reserve(F_[i], F_[m], sense);
 }
 double ExactPath::rate(Index i, double sense) const
 {
@@ -231,29 +337,45 @@ void ExactPath::for_each_boundary(Visitor visit) const
    }
 }
 
-/// Fraction of the rest of the piece until a node reaches a boundary of its state; 1: none
-/// does.
-double ExactPath::way_to_event()
+/// Share of the rest of the way until a node reaches a boundary of its state, or that of the
+/// stop, if none does before.
+double ExactPath::share_to_event(double stop)
 {
-   double way = 1;
-   event_ = -1;
+   double share = stop;
+   last_.event = -1;
    for_each_boundary(
       [&](Index i, double sense)
       {
-         // What is met at the very end, to round-off, is not an event of this piece: a node
-         // that comes back to its friction limit where the load turns has not slipped.
+         // What is met at the very stop, to round-off, is no event before it: a node that comes
+         // back to its friction limit where the load turns has not slipped.
          const double value = left(i, sense), change = rate(i, sense);
-         if (value + change >= -noise_[i]) { return; }
+         if (value + stop * change >= -noise_[i]) { return; }
          const double to = std::max(value, 0.0) / -change;
-         if (to >= way) { return; }
-         way = to;
-         event_ = i;
+         if (to >= share) { return; }
+         share = to;
+         last_.event = i;
       });
-   return way;
+   // A closed node may come to the next bend of its bound.
+   const Index n = problem_.nodes();
+   for (Index i = 0; i < n; ++i)
+   {
+      const double change = F_rate_[n + i];
+      if (!bounds_[i].bends() || !closed(equations_.states()[i]) || change == 0) { continue; }
+      const double p = F_[n + i],
+                   bend = bounds_[i].bend(p + std::copysign(noise_[i], change), change),
+                   to = (bend - p) / change;
+      if (std::abs(bend - p) - stop * std::abs(change) >= -noise_[i] || to >= share)
+      {
+         continue;
+      }
+      share = to;
+      last_.event = i;
+   }
+   return share;
 }
 
-/// Fraction by which the way was too long, if a boundary was passed by more than round-off.
-double ExactPath::way_past_event() const
+/// Share by which the way was too long, if a boundary was passed by more than round-off.
+double ExactPath::share_past_event() const
 {
    double back = 0;
    for_each_boundary(
@@ -297,7 +419,7 @@ bool ExactPath::starts_from(const ContactState &state) const
    {
       const double limit = std::max({allowed, round_off[i], round_off[n + i]}),
                    way = sense(state.status[i]),
-                   off = equations_.bound()[i].reserve(state.q[i], state.p[i], way),
+                   off = bounds_[i].reserve(state.q[i], state.p[i], way),
                    gap = K_(n + i, n + i) * (state.w[i] + problem_.gap[i]);
       starts = starts && (!closed(state.status[i]) || gap <= limit) &&
                (way == 0 || std::abs(off) <= limit);
@@ -305,100 +427,133 @@ bool ExactPath::starts_from(const ContactState &state) const
    return starts;
 }
 
-bool ExactPath::advance(ContactState &state, double time, const VectorXd &multipliers,
-                        std::vector<StateChange> &changes)
+/// The loads' way, the present displacements and forces, and what is round-off of them. Returns
+/// the largest force so far.
+double ExactPath::set_out(const ContactState &state, const PathWay &way)
 {
    const Index n = problem_.nodes();
    const VectorXd f = problem_.clamped_forces(state.multipliers);
-   const VectorXd f_end = problem_.clamped_forces(multipliers);
+   const VectorXd f_end = problem_.clamped_forces(way.multipliers);
    u_ = state.displacements();
    F_ = state.forces();
    // Of the present forces: what they grow to later says nothing about gaps of now.
-   const double present = std::max(
-                   {state.peak_force, f.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff()}),
-                peak = std::max(present, f_end.cwiseAbs().maxCoeff());
+   const double present =
+      std::max({state.peak_force, f.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff()});
    const VectorXd round_off = equations_.round_off(f, u_);
    noise_ = round_off.head(n).cwiseMax(round_off.tail(n));
-   noise_ = noise_.cwiseMax(1e-13 * (present > 0 ? present : peak));
+   noise_ = noise_.cwiseMax(1e-13 * (present > 0 ? present : f_end.cwiseAbs().maxCoeff()));
    rates_.b = f_end - f;
-   find_choices(state);
-   const long factored = equations_.factorisations();
-   const bool found = find_rates(state, multipliers);
-   counters_.dense_factorisations += equations_.factorisations() - factored;
-   if (!found) { return false; }
-   std::vector<NodeState> states = equations_.states();
-   if (held_ >= 0) { states[held_] = NodeState::separation; }
-   else if (free_motions(problem_, states).cols() > 0)
-   {
-      failure_ = "a body slips wherever it touches";
-      return false;
-   }
-   const std::size_t listed = changes.size();
-   list_changes(state, states, changes);
+   return present;
+}
 
-   double way = way_to_event();
-   // Where the present states hardly hold the bodies, round-off hides what is not balanced.
-   if (equations_.round_off(way * rates_.b, way * u_rate_).maxCoeff() > 1e-6 * peak)
-   {
-      changes.resize(listed);
-      failure_ = "the present states do not hold the bodies";
-      return false;
-   }
-   const VectorXd step = way * u_rate_;
+/// A share of the way on, to these loads. Returns the part of it that was gone back, since an
+/// event came before.
+double ExactPath::go(double share, const std::vector<NodeState> &states, const VectorXd &loads)
+{
+   const Index n = problem_.nodes();
+   const VectorXd step = share * u_rate_;
    u_ += step;
    // A node closed where its gap was round-off; what that is goes into the forces.
    for (Index i = 0; i < n; ++i)
    {
       if (closed(states[i])) { u_[n + i] = -problem_.gap[i]; }
    }
-   F_ += way * F_rate_;
-   const auto loads = [&]
-   {
-      return way == 1 ? multipliers
-                      : VectorXd(state.multipliers + way * (multipliers - state.multipliers));
-   };
+   F_ += share * F_rate_;
    // Round-off gathers over events, and where displacements have become small that of large
    // ones stays: the states' own equations remove it.
-   const VectorXd clamped = problem_.clamped_forces(loads());
+   const VectorXd clamped = problem_.clamped_forces(loads);
    const VectorXd forces = clamped + equations_.forces(u_);
    const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
    const bool drifted = drift.maxCoeff() > 0;
+   const VectorXd constant = intercepts(states);
    VectorXd correction, corrected;
-   slip_error_ = VectorXd::Zero(n);
+   last_.slip_error = VectorXd::Zero(n);
    // A step may be so short that what is removed would turn its slip, which is an error of
    // displacements that are as right without it.
-   if ((way == 1 || drifted) && equations_.solve(forces, correction, corrected) &&
-       (drifted || !turns(step, correction, states)))
+   if ((share < 1 && !drifted) || !equations_.solve(forces + constant, correction, corrected) ||
+       (!drifted && turns(step, correction, states)))
    {
-      u_ += correction;
-      F_ = corrected;
-      // The state before had this error already, which is no slip.
-      slip_error_ = correction.head(n).cwiseAbs();
-      // What hardly resists a turn turns by more than that: the event comes before it.
-      const double back = std::min(way, way_past_event());
-      way -= back;
-      u_ -= back * u_rate_;
-      F_ -= back * F_rate_;
+      return 0;
    }
-   u_rate_ *= 1 - way; // the rest of the piece is shorter now
-   F_rate_ *= 1 - way;
-   state.multipliers = loads();
-   reached_ = state.multipliers;
-   target_ = multipliers;
-   state.time = way == 1 ? time : state.time + way * (time - state.time);
-   // The loads of the rest of the piece are still to come.
+   u_ += correction;
+   F_ = corrected - constant;
+   // The state before had this error already, which is no slip.
+   last_.slip_error = correction.head(n).cwiseAbs();
+   // What hardly resists a turn turns by more than that: the event comes before it.
+   const double back = std::min(share, share_past_event());
+   u_ -= back * u_rate_;
+   F_ -= back * F_rate_;
+   return back;
+}
+
+/// The present displacements and forces, as a state with these loads; `present`: the largest
+/// force so far.
+void ExactPath::write(ContactState &state, std::vector<NodeState> states, double present) const
+{
+   const Index n = problem_.nodes();
+   // The loads of the rest of the way are still to come.
    state.peak_force =
       std::max({present, F_.cwiseAbs().maxCoeff(),
                 problem_.clamped_forces(state.multipliers).cwiseAbs().maxCoeff()});
-   state.status = states;
+   state.status = std::move(states);
    state.v = u_.head(n);
    state.w = u_.tail(n);
    state.q = F_.head(n);
    state.p = F_.tail(n);
    for (Index i = 0; i < n; ++i)
    {
-      if (!closed(states[i])) { state.q[i] = state.p[i] = 0; }
+      if (!closed(state.status[i])) { state.q[i] = state.p[i] = 0; }
    }
+}
+
+bool ExactPath::advance(ContactState &state, const PathWay &way,
+                        std::vector<StateChange> &changes)
+{
+   // 1. What each node may choose, and the rates of the states that are chosen.
+   const double present = set_out(state, way),
+                peak = std::max(present,
+                                problem_.clamped_forces(way.multipliers).cwiseAbs().maxCoeff());
+   const long factored = equations_.factorisations();
+   const bool found = find_rates(state, way);
+   counters_.dense_factorisations += equations_.factorisations() - factored;
+   if (!found) { return false; }
+   std::vector<NodeState> states = equations_.states();
+   if (pivot_.node >= 0) { states[pivot_.node] = NodeState::separation; }
+   else if (free_motions(problem_, states).cols() > 0)
+   {
+      last_.failure = "a body slips wherever it touches";
+      return false;
+   }
+
+   // 2. As far as the next event or the stop. Where the states hardly hold the bodies,
+   // round-off hides what is not balanced.
+   const double rest = way.time - state.time,
+                stop = way.stop == way.time ? 1 : (way.stop - state.time) / rest;
+   double share = share_to_event(stop);
+   const VectorXd by = share * rates_.b, step = share * u_rate_;
+   if (equations_.most_round_off(by, step) > 1e-6 * peak &&
+       equations_.round_off(by, step).maxCoeff() > 1e-6 * peak)
+   {
+      last_.failure = "the present states do not hold the bodies";
+      return false;
+   }
+   list_changes(state, states, changes);
+   const auto loads = [&]
+   {
+      return share == stop
+                ? way.at_stop
+                : VectorXd(state.multipliers + share * (way.multipliers - state.multipliers));
+   };
+   share -= go(share, states, loads());
+
+   // 3. The rates hold for the rest of the way, which is shorter now.
+   u_rate_ *= 1 - share;
+   F_rate_ *= 1 - share;
+   state.time = share == stop ? way.stop : state.time + share * rest;
+   state.multipliers = loads();
+   known_.from = state.multipliers;
+   known_.to = way.multipliers;
+   write(state, std::move(states), present);
    return true;
 }
 

@@ -1,7 +1,6 @@
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/words.hpp>
-#include <set>
 
 namespace cattaneo
 {
@@ -9,12 +8,11 @@ namespace cattaneo
 LoadHistory load_history(const std::string &called, const std::string &text,
                          const ReducedProblem &problem)
 {
-   NamedLoads loads;
    std::vector<NamedLoads> points;
    for (const std::string &statement : split_unquoted(called, text, ";"))
    {
       const std::string where = called + " '" + statement + "'";
-      std::set<std::string> named;
+      NamedLoads point;
       for (const std::string &word : split_unquoted(where, statement, ", \t\n"))
       {
          const bool quoted = word[0] == '\'' || word[0] == '"';
@@ -25,7 +23,7 @@ LoadHistory load_history(const std::string &called, const std::string &text,
                  "', must be PATTERN=number such as P=1, a name with spaces, commas or = in "
                  "quotes");
          const std::string name = quoted ? word.substr(1, end - 1) : word.substr(0, equals);
-         require(named.insert(name).second, where, ": '", name,
+         require(point.count(name) == 0, where, ": '", name,
                  "' is there twice, each point has one value of it; points are separated by "
                  "semicolons, as 'P=0; P=1'");
          try
@@ -36,15 +34,14 @@ LoadHistory load_history(const std::string &called, const std::string &text,
          {
             throw InputError(where + ": " + error.what());
          }
-         loads[name] = number(where, word.substr(equals + 1));
+         point[name] = number(where, word.substr(equals + 1));
       }
-      points.push_back(loads);
+      points.push_back(point);
    }
    if (points.empty())
    {
-      points.emplace_back();
-      for (const LoadPattern &pattern : problem.patterns) { loads[pattern.name] = 1; }
-      points.push_back(loads);
+      points.resize(2);
+      for (const LoadPattern &pattern : problem.patterns) { points[1][pattern.name] = 1; }
    }
    for (const auto &[name, value] : points[0])
    {

@@ -7,10 +7,9 @@ namespace cattaneo
 {
 
 /** A load history as a user of a program writes it: points separated by semicolons, at times 0,
-    1, 2, …: "P=0; P=1; Q=0.1; Q=-0.1". A pattern that is not named keeps its value (in
-    LoadHistory::through() it is zero); all are 0 at the first point. A name that holds spaces,
-    commas, = or semicolons stands in quotes, ' or ": "'bolt 1, w = 1'=1 T=0.2". Without text:
-    all from 0 to 1. The history has no cycle.
+    1, 2, …: "P=0; P=1; Q=0.1; Q=-0.1". A pattern that is not named keeps its value; all are 0
+    at the first point. A name that holds spaces, commas, = or semicolons stands in quotes, ' or
+    ": "'bolt 1, w = 1'=1 T=0.2". Without text: all from 0 to 1. The history has no cycle.
 
     @param called what the text is called in an error, the name of an option for instance
     InputError, which quotes the point, for what is no number, a pattern that the problem has

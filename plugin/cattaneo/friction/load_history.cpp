@@ -30,11 +30,21 @@ LoadHistory LoadHistory::through(const std::vector<Eigen::VectorXd> &points)
 }
 
 LoadHistory LoadHistory::through(const ReducedProblem &problem,
-                                 const std::vector<NamedLoads> &points)
+                                 const std::vector<NamedLoads> &points, int cycle_start,
+                                 int cycles)
 {
    std::vector<Eigen::VectorXd> ordered;
-   for (const NamedLoads &loads : points) { ordered.push_back(problem.multipliers(loads)); }
-   return through(ordered);
+   NamedLoads loads; // with those of the points before
+   for (const NamedLoads &point : points)
+   {
+      for (const auto &[name, value] : point) { loads[name] = value; }
+      ordered.push_back(problem.multipliers(loads));
+   }
+   LoadHistory history = through(ordered);
+   history.cycle_start = cycle_start;
+   history.cycles = cycles;
+   history.validate(problem);
+   return history;
 }
 
 int LoadHistory::pieces() const
@@ -76,8 +86,17 @@ void LoadHistory::validate(const ReducedProblem &problem) const
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
    require(multipliers.rows() == patterns, "load history: ", multipliers.rows(),
            " multipliers a point for ", patterns, " load patterns");
-   require(times.allFinite() && multipliers.allFinite(),
-           "load history: a time or multiplier is not finite");
+   for (Eigen::Index k = 0; k < times.size(); ++k)
+   {
+      require(std::isfinite(times[k]), "load history: time of point ", k, " is ", times[k],
+              ", must be finite");
+      for (Eigen::Index l = 0; l < patterns; ++l)
+      {
+         require(std::isfinite(multipliers(l, k)), "load history: load '",
+                 problem.patterns[l].name, "' is ", multipliers(l, k), " at point ", k,
+                 ", must be finite");
+      }
+   }
    for (Eigen::Index k = 1; k < times.size(); ++k)
    {
       require(times[k] > times[k - 1], "load history: time ", times[k], " of point ", k,

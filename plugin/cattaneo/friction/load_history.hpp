@@ -43,9 +43,15 @@ struct LoadHistory
 
    /// Points with times 0, 1, 2, …; each inner vector is one point's multipliers.
    static LoadHistory through(const std::vector<Eigen::VectorXd> &points);
-   /// The same by names: through(problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", 0.2}}}).
+   /** Points with times 0, 1, 2, … by the names of loads, of which a point names those that it
+       changes: through(problem, {{}, {{"P", 1}}, {{"Q", 0.2}}}). A load that a point does not
+       name keeps its value, from 0 at the first point.
+       @param cycle_start  the point from which on the rest repeats; -1: no cycle
+       @param cycles       how often it does
+       InputError as validate(), and for a name that is none of a pattern. */
    static LoadHistory through(const ReducedProblem &problem,
-                              const std::vector<NamedLoads> &points);
+                              const std::vector<NamedLoads> &points, int cycle_start = -1,
+                              int cycles = 1);
 
    /// Number of linear pieces, repeated cycles counted.
    int pieces() const;

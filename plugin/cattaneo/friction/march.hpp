@@ -12,35 +12,39 @@
 namespace cattaneo
 {
 
-/// How a piece of the load history is cut into increments.
+/// How a piece of the load history is marched.
 enum class Stepping
 {
-   /// Equal increments, but only one where that is exact: a first proportional loading without
-   /// a gap (self-similar, unless a law of friction bends with pressure), and any piece without
-   /// friction.
+   /// Equal increments, for comparison, but only one where that is exact: a first proportional
+   /// loading without a gap (self-similar, unless a law of friction bends with pressure), and
+   /// any piece without friction.
    fixed,
-   /// As fixed, but where a node closes with friction, which then acts from there, the exact
-   /// path is followed to the end of the increment. With two tangential components there is
-   /// none, and the increment is halved while contact advances by more than one layer of nodes:
-   /// each newly closed node must have had a closed neighbour on its chain, or, on a chain that
-   /// bore nothing yet, close there first, alone or beside another.
-   advancing,
-   /// No increments: from one change of state to the next, exactly. Pieces that
-   /// one increment solves exactly take that one. Where there is no path to follow, an
-   /// increment is taken instead, to the next of the equal ones or to where a node closes
-   /// first: counted, with the reason, in the report. A state that is no equilibrium (an
-   /// initial slip, an interference) is settled by an increment first.
+   /** From one change of state to the next, exactly. The increments are stops: the states
+       there are recorded, whatever number of changes lies between. Pieces that one increment
+       solves exactly take that one. Where rates have no answer, an increment is taken instead,
+       to the next stop or to where a node closes first: counted, with the reason, in the
+       report. A state that is no equilibrium (an initial slip, an interference) is settled by
+       an increment first.
+
+       With two tangential components there is no such path, and FrictionMethod::gauss_seidel
+       knows none. Equal increments are taken, halved while contact advances by more than one
+      layer of nodes: each newly closed node must have had a closed neighbour on its chain, or,
+      on a chain that bore nothing yet, close there first, alone or beside another. */
    exact
 };
 
 /// How a history is marched. The defaults need no tuning.
 struct MarchSettings
 {
-   FrictionSettings friction;               ///< of every increment
-   int increments = 20;                     ///< increments of each piece of the history
-   std::vector<int> increments_of_piece;    ///< overrides `increments` for the points' pieces
-   Stepping stepping = Stepping::advancing; ///< what the increments are
-   bool single_increment_if_exact = true;   ///< false: cut even where one increment is exact
+   FrictionSettings friction;             ///< of every increment
+   int increments = 20;                   ///< increments of each piece of the history
+   std::vector<int> increments_of_piece;  ///< overrides `increments` for the points' pieces
+   Stepping stepping = Stepping::exact;   ///< how their ends are reached
+   bool single_increment_if_exact = true; ///< false: cut even where one increment is exact
+   /// Events of an exact path end the increments, in place of stops: the observer and the
+   /// report have their states, and MarchReport::changes lists the changes. Else they are only
+   /// counted.
+   bool every_event = false;
    int max_halvings = 12;            ///< of an increment, for advancing contact or failure
    bool stop_at_steady_state = true; ///< the cycles that are left would be the same
    /// Steady: slip at the end of a cycle differs from that one or two cycles before by less
@@ -58,7 +62,7 @@ struct MarchSettings
    void validate() const;
 };
 
-/// One accepted increment.
+/// One accepted increment, on an exact path the way from one stop to the next.
 struct IncrementRecord
 {
    double time = 0;             ///< at its end
@@ -71,10 +75,10 @@ struct IncrementRecord
    int backward_slip = 0;       ///< … that slip backward
    int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
    double dissipation = 0; ///< lost by friction, summed over nodes; never negative
-   /// Work of the loads, trapezoidal (exact for linear increments); of the contact's part of
-   /// the conjugates alone where H is not known.
+   /// Work of the loads, trapezoidal (exact for linear increments, and on an exact path); of
+   /// the contact's part of the conjugates alone where H is not known.
    double external_work = 0;
-   double residual_normal = 0;     ///< see IncrementReport
+   double residual_normal = 0;     ///< see IncrementReport; the largest on the way, as the next
    double residual_tangential = 0; ///< see IncrementReport
    double round_off = 0;           ///< see IncrementReport
    /// The method that found it: one of IncrementReport's, or of the exact path ("event path",
@@ -83,8 +87,8 @@ struct IncrementRecord
    /// A march taken up from the state here goes on to the last bit. False amid an exact path:
    /// to round-off.
    bool resumes = true;
-   /// Node at whose change of state, on the exact path, the increment ends before the loads
-   /// that the path leads to: its loads are the answer's. -1: they are those of the history.
+   /// Node at whose change of state the increment ends, see MarchSettings::every_event: its
+   /// loads are the answer's. -1: they are those of the history.
    Eigen::Index event = -1;
 };
 
@@ -134,8 +138,11 @@ struct MarchReport
    std::optional<NotUnique> not_unique; ///< also where the march ended later for another reason
    std::vector<IncrementRecord> increments; ///< see MarchSettings::keep_increments
    std::vector<CycleRecord> cycles;         ///< of those that were marched
-   /// Stepping::exact: every change of state, in the order of the path. A piece that took one
-   /// increment lists its changes at its start.
+   /// Stepping::exact: changes of state of nodes, of increments that were taken instead the
+   /// differences of the states at both ends.
+   long events = 0;
+   /// With MarchSettings::every_event the list of them, in the order of the path. A piece that
+   /// took one increment lists its changes at its start.
    std::vector<StateChange> changes;
    int fallbacks = 0;           ///< increments taken because there was no exact path to follow
    std::string fallback_reason; ///< of the first of them
@@ -176,15 +183,15 @@ struct MarchReport
 using MarchObserver = std::function<void(const ContactState &, const IncrementRecord &)>;
 
 /** Marches the state along a load history. The state's own time says where it stands, so that a
-    march can be cut and resumed: the result is the same to the last bit (Stepping::exact: to
-    round-off, where no increment had to be taken instead). Stops early, with the status in the
-    report, when there is no equilibrium or when the monitor says so; the state is then the last
-    one found. The monitor is asked where the result of going on from there is the same to the
-    last bit, on an exact path after every event: the state of a march that was stopped, taken
-    up again, comes to what the march would have come to. What an observer throws ends the
-    march, the state being what it was called with. InputError also where the history does not
-    go on with the loads that the state has, unless there is no friction: the way there would
-    matter. */
+    march can be cut and resumed: the result is the same to the last bit (on an exact path to
+    round-off, where no increment had to be taken instead: the factor of its equations is kept
+    over stops and pieces). The same input gives the same bits. Stops early, with the status in
+    the report, when there is no equilibrium or when the monitor says so; the state is then the
+    last one found. The monitor is asked between increments: the state of a march that was
+    stopped, taken up again, comes to what the march would have come to. What an observer throws
+   ends the march, the state being what it was called with. InputError also where the history
+   does not go on with the loads that the state has, unless there is no friction: the way there
+   would matter. */
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
                   const MarchObserver &observer = {});

@@ -56,9 +56,18 @@ IncrementRecord record_of(const ReducedProblem &problem, const ContactState &sta
 
 MarchRecord::MarchRecord(const ReducedProblem &problem, ContactState &state,
                          const MarchSettings &settings, const MarchObserver &observer)
-   : problem_(problem), state_(state), settings_(settings), observer_(observer),
-     conjugates_(conjugates(problem, state)), energy_at_start_(elastic_energy(problem, state))
+   : problem_(problem), state_(state), settings_(settings), observer_(observer)
 {
+   restart();
+}
+
+void MarchRecord::restart()
+{
+   const Counters counters = report.counters;
+   report = {};
+   report.counters = counters;
+   conjugates_ = conjugates(problem_, state_);
+   energy_at_start_ = elastic_energy(problem_, state_);
 }
 
 void MarchRecord::begin_cycle(int number, bool whole)
@@ -74,78 +83,109 @@ void MarchRecord::begin_cycle(int number, bool whole)
    }
 }
 
-double MarchRecord::external_work(const IncrementRecord &record) const
+double MarchRecord::external_work(const VectorXd &multipliers, const VectorXd &conjugates) const
 {
    double sum = 0;
    for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
    {
       Loop way(problem_.patterns[k].control, state_.multipliers[k], conjugates_[k]);
-      way.add(record.multipliers[k], record.conjugates[k]);
+      way.add(multipliers[k], conjugates[k]);
       sum += way.work();
    }
    return sum;
 }
 
-void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
-                         const IncrementReport &increment, bool exact, bool resumes,
-                         Index event)
+/// Adds what is lost and done on a step to `next` to all sums that have it. Returns the loss.
+double MarchRecord::add_energies(const ContactState &next, const LoadPiece &piece, bool exact)
 {
-   find_slip_origin(state_, next);
-   IncrementRecord record = record_of(problem_, next);
-   record.cycle = piece.cycle;
-   record.resumes = resumes;
-   record.event = event;
-   record.residual_normal = increment.residual_normal;
-   record.residual_tangential = increment.residual_tangential;
-   record.round_off = increment.round_off;
-   record.found_by = increment.found_by;
-   // On the exact path a node closes at the event that its piece begins with, and is found to
-   // have too much friction within it.
-   const NotUnique doubtful = exact
-                                 ? NotUnique{state_.time, state_.multipliers, increment.message}
-                                 : NotUnique{next.time, next.multipliers, increment.message};
-   const VectorXd lost = frictional_loss(problem_, state_, next);
-   record.dissipation = lost.sum();
-   record.external_work = external_work(record);
-   const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
-   next.cycle.reset();
+   const VectorXd lost = frictional_loss(problem_, state_, next),
+                  at_end = conjugates(problem_, next);
+   const double dissipation = lost.sum(), work = external_work(next.multipliers, at_end),
+                normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
+   // 1. The row and, of a cycle, its record, which the state has.
+   row_.dissipation += dissipation;
+   row_.external_work += work;
    if (piece.cycle > 0)
    {
       const bool known = state_.cycle && state_.cycle->cycle == piece.cycle;
       if (!known) { begin_cycle(piece.cycle, false); }
-      next.cycle = std::move(state_.cycle);
-      CycleRecord &cycle = *next.cycle;
+      CycleRecord &cycle = *state_.cycle;
       cycle.node_dissipation += lost;
-      cycle.dissipation += record.dissipation;
-      cycle.external_work += record.external_work;
+      cycle.dissipation += dissipation;
+      cycle.external_work += work;
       cycle.normal_work += normal_work;
       for (std::size_t k = 0; k < cycle.loops.size(); ++k)
       {
-         cycle.loops[k].add(record.multipliers[k], record.conjugates[k]);
+         cycle.loops[k].add(next.multipliers[k], at_end[k]);
       }
    }
+   // 2. The losses of the march.
    if (piece.end != piece_end_)
    {
-      piece_losses_.push_back(0);
+      losses_.pieces.push_back(0);
       piece_end_ = piece.end;
    }
-   piece_losses_.back() += record.dissipation;
-   if (node_losses_.size() == 0) { node_losses_ = VectorXd::Zero(lost.size()); }
-   node_losses_ += lost;
-   inexact_ = inexact_ || !exact;
+   losses_.pieces.back() += dissipation;
+   if (losses_.nodes.size() == 0) { losses_.nodes = VectorXd::Zero(lost.size()); }
+   losses_.nodes += lost;
+   losses_.inexact = losses_.inexact || !exact;
    if (!exact) { changed_ = std::max(changed_, changed_while_closing(problem_, state_, next)); }
-   external_work_ += record.external_work;
-   most_work_ = std::max(most_work_, std::abs(external_work_));
-   dissipation_ += record.dissipation;
-   normal_work_ += normal_work;
+   // 3. The balance.
+   sums_.external_work += work;
+   losses_.most_work = std::max(losses_.most_work, std::abs(sums_.external_work));
+   sums_.dissipation += dissipation;
+   sums_.normal_work += normal_work;
    // Work is a load times the difference of two places, which may lie far away.
-   moved_energy_ += std::abs(record.external_work) + record.dissipation +
-                    std::abs(normal_work) +
-                    record.multipliers.cwiseAbs().dot(record.conjugates.cwiseAbs());
-   next.dissipation += record.dissipation;
+   sums_.moved += std::abs(work) + dissipation + std::abs(normal_work) +
+                  next.multipliers.cwiseAbs().dot(at_end.cwiseAbs());
+   conjugates_ = at_end;
+   return dissipation;
+}
+
+void MarchRecord::accept(MarchStep &&step, const LoadPiece &piece)
+{
+   // 1. What the step adds to the row that it is a part of.
+   ContactState &next = step.state;
+   const IncrementReport &increment = step.increment;
+   if (!row_begun_) { row_ = {}; }
+   row_begun_ = true;
+   row_.cycle = piece.cycle;
+   row_.resumes = step.resumes;
+   row_.event = step.event;
+   row_.residual_normal = std::max(row_.residual_normal, increment.residual_normal);
+   row_.residual_tangential = std::max(row_.residual_tangential, increment.residual_tangential);
+   row_.round_off = std::max(row_.round_off, increment.round_off);
+   row_.found_by = increment.found_by;
+   report.largest_residual = std::max(
+      {report.largest_residual, increment.residual_normal, increment.residual_tangential});
+   // On the exact path a node closes at the event that its step begins with, and is found to
+   // have too much friction within it.
+   const ContactState &doubtful = step.exact ? state_ : next;
+   const NotUnique from{doubtful.time, doubtful.multipliers, increment.message};
+   // 2. Energies, which need the state before.
+   find_slip_origin(state_, next);
+   next.dissipation += add_energies(next, piece, step.exact);
+   if (piece.cycle > 0) { next.cycle = std::move(state_.cycle); }
+   else { next.cycle.reset(); }
+   // 3. The state.
    state_ = std::move(next);
-   conjugates_ = record.conjugates;
-   if (settings_.keep_increments) { report.increments.push_back(record); }
+   find_cut_off();
+   if (increment.status == FrictionStatus::not_unique && !report.not_unique)
+   {
+      report.not_unique = from;
+      stop(increment); // the status, which an end of the march may still replace
+      report.event_time = from.time;
+      report.event_multipliers = from.multipliers;
+   }
+   // 4. The end of a cycle, and of the row. What is observed is whole: a march that is taken up
+   // from it knows of this cycle.
+   if (piece.ends_cycle && state_.time >= piece.end) { end_cycle(); }
+   if (step.row) { end_row(); }
+}
+
+/// Ends of lines at which contact is cut off in the present state for the first time.
+void MarchRecord::find_cut_off()
+{
    for (const CutOffContact &found : cut_off_contact(problem_, state_))
    {
       const bool known =
@@ -154,18 +194,24 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
                      { return other.node == found.node && other.at_first == found.at_first; });
       if (!known) { report.cut_off.push_back(found); }
    }
-   report.largest_residual =
-      std::max({report.largest_residual, record.residual_normal, record.residual_tangential});
+}
+
+/// The steps since the last row are one.
+void MarchRecord::end_row()
+{
+   IncrementRecord record = record_of(problem_, state_);
+   record.cycle = row_.cycle;
+   record.dissipation = row_.dissipation;
+   record.external_work = row_.external_work;
+   record.residual_normal = row_.residual_normal;
+   record.residual_tangential = row_.residual_tangential;
+   record.round_off = row_.round_off;
+   record.found_by = row_.found_by;
+   record.resumes = row_.resumes;
+   record.event = row_.event;
+   row_begun_ = false;
    ++report.counters.increments;
-   if (increment.status == FrictionStatus::not_unique && !report.not_unique)
-   {
-      report.not_unique = doubtful;
-      stop(increment); // the status, which an end of the march may still replace
-      report.event_time = doubtful.time;
-      report.event_multipliers = doubtful.multipliers;
-   }
-   // What is observed is whole: a march that is taken up from it knows of this cycle.
-   if (piece.ends_cycle && state_.time >= piece.end) { end_cycle(); }
+   if (settings_.keep_increments) { report.increments.push_back(record); }
    if (observer_) { observer_(state_, record); }
 }
 
@@ -198,17 +244,19 @@ void MarchRecord::stop(const IncrementReport &failure)
 
 void MarchRecord::close()
 {
+   // A march that ends between two stops has a row there.
+   if (row_begun_) { end_row(); }
    report.time = state_.time;
    if (changed_ > 0) { report.advance_error = 4 * changed_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy_at_start_;
    // Where the loads give back what they had put in, all three at the end are round-off of the
    // work on the way; of a closed elastic cycle of the energy that it began with.
-   const double most =
-      std::max({most_work_, std::abs(stored), dissipation_, 1e-6 * std::abs(energy_at_start_)});
-   const double left = external_work_ - stored - dissipation_ - normal_work_;
+   const double most = std::max({losses_.most_work, std::abs(stored), sums_.dissipation,
+                                 1e-6 * std::abs(energy_at_start_)});
+   const double left = sums_.external_work - stored - sums_.dissipation - sums_.normal_work;
    // Sums of so many terms, each right to the solver's residual or to rounding.
    const double right_to = std::max(report.largest_residual, 1e-14),
-                known_to = right_to * (moved_energy_ + std::abs(energy_at_start_));
+                known_to = right_to * (sums_.moved + std::abs(energy_at_start_));
    if (std::abs(left) > known_to) { report.energy_imbalance = left / most; }
 }
 

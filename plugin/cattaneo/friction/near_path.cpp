@@ -21,27 +21,28 @@ std::optional<NearContacts::Way> NearPath::set_out(const ContactState &state, in
    return contacts_.set_out(state, eighths);
 }
 
-bool NearPath::advance(ContactState &state, double time, const VectorXd &multipliers,
+bool NearPath::advance(ContactState &state, const PathWay &way,
                        std::vector<StateChange> &changes)
 {
    const std::size_t listed = changes.size();
    for (int eighths = contacts_.eighths(state); eighths > 0;)
    {
-      auto way = set_out(state, eighths);
-      if (!way) { break; }
-      if (near_ != way->near)
+      auto part = set_out(state, eighths);
+      if (!part) { break; }
+      if (near_ != part->near)
       {
          if (path_) { counters_ += path_->counters(); }
-         near_ = way->near;
+         near_ = part->near;
          part_.reset();
          path_ = std::make_unique<ExactPath>(near_->problem());
       }
       last_ = path_.get();
-      if (!path_->advance(way->part, time, near_->loads(multipliers), changes))
+      const VectorXd to = near_->loads(way.multipliers), at_stop = near_->loads(way.at_stop);
+      if (!path_->advance(part->part, {way.time, to, way.stop, at_stop}, changes))
       {
          return false;
       }
-      ContactState next = near_->whole(state, way->part);
+      ContactState next = near_->whole(state, part->part);
       if (const int more = contacts_.touched(next, eighths); more > 0)
       {
          changes.resize(listed);
@@ -56,7 +57,7 @@ bool NearPath::advance(ContactState &state, double time, const VectorXd &multipl
       ++steps_;
       parts_ = near_->parts();
       u_ = next.displacements();
-      part_ = std::move(way->part);
+      part_ = std::move(part->part);
       event_ = path_->event() < 0 ? -1 : near_->node(path_->event());
       slip_error_ = VectorXd::Zero(state.v.size());
       for (Eigen::Index i = 0; i < path_->slip_error().size(); ++i)
@@ -67,7 +68,7 @@ bool NearPath::advance(ContactState &state, double time, const VectorXd &multipl
       return true;
    }
    last_ = &whole_;
-   const bool advanced = whole_.advance(state, time, multipliers, changes);
+   const bool advanced = whole_.advance(state, way, changes);
    event_ = whole_.event();
    slip_error_ = whole_.slip_error();
    return advanced;

@@ -27,6 +27,13 @@ StateEquations::StateEquations(const Eigen::Ref<const MatrixXd> &K,
 {
 }
 
+const VectorXd &StateEquations::round_off(const VectorXd &b, const VectorXd &x) const
+{
+   const bool known = known_.x.size() == x.size() && known_.x == x && known_.b == b;
+   if (!known) { known_ = {b, x, arithmetic_.rows(x.cwiseAbs(), b)}; }
+   return known_.rows;
+}
+
 NodeState StateEquations::smooth_contact(Index node, const VectorXd &x) const
 {
    if (!tangential_) { return NodeState::stick; }
@@ -231,7 +238,8 @@ bool StateEquations::adopt()
 
 bool StateEquations::set(std::vector<NodeState> states, std::vector<bool> held)
 {
-   if (!anew_ && states == states_ && held == held_) { return true; }
+   if (!anew_ && !bound_changed_ && states == states_ && held == held_) { return true; }
+   bound_changed_ = false;
    states_.swap(states);
    held_.swap(held);
    if (adopt()) { return true; }

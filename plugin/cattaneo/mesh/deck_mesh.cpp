@@ -75,19 +75,41 @@ bool is_deck(const std::string &file)
    return upper_case(std::filesystem::path(file).extension().string()) == ".INP";
 }
 
-DeckMesh deck_mesh(const std::string &file)
+namespace
 {
-   const InputDeck deck = read_input_deck(file);
+
+/// Cards that are not read, in a list.
+std::string passed_over(const InputDeck &deck)
+{
+   static const std::set<std::string> read = {
+      "HEADING",  "PREPRINT",     "PART",          "END PART", "ASSEMBLY", "END ASSEMBLY",
+      "INSTANCE", "END INSTANCE", "NODE",          "ELEMENT",  "NSET",     "ELSET",
+      "SURFACE",  "MATERIAL",     "SOLID SECTION", "ELASTIC",  "INCLUDE",  "END STEP"};
+   std::vector<std::string> cards;
+   for (const std::string &name : deck.keywords)
+   {
+      const bool with_type = name.find(", TYPE=") != std::string::npos;
+      if (read.count(name) == 0 && !with_type) { cards.push_back("*" + name); }
+   }
+   return listed(cards);
+}
+
+} // namespace
+
+DeckMesh deck_mesh(const std::string &file, const MeshPart &part)
+{
+   const InputDeck deck = read_input_deck(file, DeckUse::mesh, {part.name, part.usual});
    DeckMesh made;
    made.names.numbered = false;
    made.names.axisymmetric = deck.formulation == Formulation::axisymmetric;
-   std::vector<std::string> passed_over;
-   for (const char *card : {"BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE",
-                            "MODEL CHANGE", "PRE-TENSION SECTION"})
+   made.names.passed_over = passed_over(deck);
+   for (const std::string &name : deck.sections)
    {
-      if (deck.keywords.count(card)) { passed_over.push_back(std::string("*") + card); }
+      const auto material = deck.materials.find(name);
+      made.names.materials.push_back(
+         {name, material == deck.materials.end() ? 0 : material->second.young,
+          material == deck.materials.end() ? 0 : material->second.poisson});
    }
-   made.names.passed_over = listed(passed_over);
 
    std::set<int> used;
    long last = 0;
@@ -99,7 +121,7 @@ DeckMesh deck_mesh(const std::string &file)
               element.corners == 2 ? " with a *SOLID SECTION" : "",
               ", must be a CPS, CPE or CAX of 3, 4, 6 or 8 nodes, or an M3D9, or be left out");
       if (element.corners < 3) { continue; }
-      require(deck.sections == 0 || element.section > 0, element.place, ": element ",
+      require(deck.sections.empty() || element.section > 0, element.place, ": element ",
               element.number,
               " is in no *SOLID SECTION, must be in one, or there must be none at all");
       for (int node : element.nodes)
@@ -108,6 +130,13 @@ DeckMesh deck_mesh(const std::string &file)
          const Eigen::Vector2d &at = deck.places.at(node);
          made.mesh.add_node(node, {at[0], at[1], 0});
       }
+   }
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      // Programs that know no material write CPS for any plane element.
+      if (element.section == 0 || element.type.size() < 3) { continue; }
+      const std::string family = element.type.substr(0, 3);
+      if (family == "CPS" || family == "CPE") { made.names.plane_elements.insert(family); }
    }
    require(!used.empty(), "file '", file,
            "' has no elements, must have CPS, CPE or CAX of 3, 4, 6 or 8 nodes");

@@ -1,6 +1,8 @@
 #include <cattaneo/mesh/mesh_file.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cattaneo/exchange/off_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/deck_mesh.hpp>
 #include <cerrno>
@@ -10,6 +12,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -225,15 +228,11 @@ void check_group(const std::vector<long> &tags, std::size_t corners, const std::
 void check_gmsh(const GmshMesh &mesh)
 {
    require(!mesh.nodes.empty(), "mesh file has no nodes");
-   double extent = 0; // largest coordinate
-   for (const auto &[number, x] : mesh.nodes)
-   {
-      for (double coordinate : x) { extent = std::max(extent, std::abs(coordinate)); }
-   }
-   const double level = mesh.nodes.begin()->second[2];
    Edges edges;
    int order = 0;
    bool has_areas = false;
+   std::vector<Eigen::Vector3d> places; // of the elements' nodes
+   std::vector<long> numbers;
    for (const GmshMesh::Element &element : mesh.elements)
    {
       const std::string what = "element " + std::to_string(element.number);
@@ -248,12 +247,17 @@ void check_gmsh(const GmshMesh &mesh)
       for (long node : element.nodes)
       {
          require(own.insert(node).second, "mesh file has node ", node, " twice in ", what);
-         const double z = mesh.nodes.at(node)[2];
-         require(std::abs(z - level) <= 1e-9 * extent, "mesh file has node ", node, " of ",
-                 what, " at z = ", z, ", the first node at ", level,
-                 ", must be equal: turn the mesh into the xy plane");
+         const std::array<double, 3> &x = mesh.nodes.at(node);
+         places.emplace_back(x[0], x[1], x[2]);
+         numbers.push_back(node);
       }
       edges.add(element.nodes, shape.corners, of_attribute(what, element.tags[0]));
+   }
+   if (const std::optional<std::size_t> off = first_off_plane(places))
+   {
+      require(false, "mesh file has node ", numbers[*off], " at z = ", places[*off][2],
+              ", the first node at ", places[0][2],
+              ", must be equal: turn the mesh into the xy plane");
    }
    require(has_areas,
            "mesh file has no triangles or quadrilaterals: in Gmsh make a surface of the "
@@ -294,8 +298,10 @@ private:
 
 } // namespace
 
-mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves)
+mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const MeshPart &part)
 {
+   require(part.name.empty() || is_deck(file), "mesh file has no part '", part.name,
+           "': only decks (.inp) have parts");
    if (curves) { curves->clear(); }
    std::error_code why_not;
    const auto type = std::filesystem::status(file, why_not).type();
@@ -309,7 +315,7 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves)
    std::getline(in, line);
    if (is_deck(file) || line.rfind("$MeshFormat", 0) == 0)
    {
-      const GmshMesh mesh = is_deck(file) ? deck_mesh(file).mesh : read_gmsh(file, size);
+      const GmshMesh mesh = is_deck(file) ? deck_mesh(file, part).mesh : read_gmsh(file, size);
       check_gmsh(mesh);
       for (const GmshMesh::Element &element : mesh.elements)
       {
@@ -355,9 +361,9 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves)
    return mesh;
 }
 
-MeshNames mesh_names(const std::string &file)
+MeshNames mesh_names(const std::string &file, const MeshPart &part)
 {
-   if (is_deck(file)) { return deck_mesh(file).names; }
+   if (is_deck(file)) { return deck_mesh(file, part).names; }
    MeshNames names;
    std::ifstream in(file, std::ios::binary);
    std::string line;
@@ -443,8 +449,9 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
       << "mesh '" << name << "': " << pairs
       << " pairs of nodes lie on one another (nearer than a thousandth of their edges), as at ("
       << first->x << ", " << first->y
-      << "): the body is cut there, and its faces may pass through each other; if it is one "
-         "piece, join them (in Gmsh: Coherence Mesh)";
+      << "): the body is cut there, and its faces may pass through each other: name each face "
+         "by itself and put an interface between them, or, if the body is one piece, join "
+         "them (in Gmsh: Coherence Mesh)";
    return text.str();
 }
 

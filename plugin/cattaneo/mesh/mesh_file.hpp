@@ -2,11 +2,21 @@
 
 #include <map>
 #include <mfem.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace cattaneo
 {
+
+/// Which body of a deck is meant.
+struct MeshPart
+{
+   /// An instance, or a set of elements; empty: the deck has one body, or `usual` says which.
+   std::string name;
+   /// Of several instances the one that is called so, if `name` is empty.
+   std::string usual = {};
+};
 
 /** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), Gmsh's 4.1 or
     2.2, ASCII or binary, or an .inp of CalculiX or ABAQUS, of triangles and quadrilaterals.
@@ -15,8 +25,10 @@ namespace cattaneo
     file is therefore checked first, section by section. InputError saying what is wrong.
 
     @param curves where it is to be said on which curve of the file (Gmsh's entity) each
-   boundary element is, -1: not known; for curve_sides() */
-mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr);
+   boundary element is, -1: not known; for curve_sides()
+    @param part of a deck; InputError if it is named and the file is none */
+mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr,
+                     const MeshPart &part = {});
 
 /// What a mesh file says beside the mesh.
 struct MeshNames
@@ -28,10 +40,18 @@ struct MeshNames
    std::map<std::string, int> elements; ///< attributes by the names of groups
    bool numbered = true;                ///< false: boundary attributes are this program's own
    bool axisymmetric = false;           ///< elements of a deck
-   std::string passed_over;             ///< supports and loads of a deck: "*BOUNDARY, *CLOAD"
+   /// Cards of a deck that are not read: "*BOUNDARY, *CLOAD, *STEP".
+   std::string passed_over;
+   struct DeckMaterial
+   {
+      std::string name;
+      double young = 0, poisson = 0; ///< both 0: it is not isotropic, or changes
+   };
+   std::vector<DeckMaterial> materials;  ///< of a deck's sections: attributes 1, 2, …
+   std::set<std::string> plane_elements; ///< CPS, CPE: of a deck's sections
 };
-/// Of a mesh file that read_mesh() takes.
-MeshNames mesh_names(const std::string &file);
+/// Of a mesh file that read_mesh() takes, and the same part of it.
+MeshNames mesh_names(const std::string &file, const MeshPart &part = {});
 
 /// A sentence if vertices lie on one another, to a thousandth of their shortest edge, where the
 /// body is cut and its faces may pass through each other; else nothing. `name` is what the mesh

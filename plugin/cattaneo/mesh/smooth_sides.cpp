@@ -23,8 +23,9 @@ struct OuterEdge
    int from = 0, to = 0;      ///< vertices
    int element = 0, side = 0; ///< the element, and the number of its edge
    int curve = -1;            ///< of the file
-   bool wanted = false;       ///< it is on a side that is looked at
-   EdgeBend bend = {};
+   bool wanted = false;       ///< it is on a side in contact
+   bool plane = false;        ///< it may be on a plane of symmetry
+   EdgeBend bend = {}, possible = {};
 };
 
 /// The vertices of an element's edge, counterclockwise.
@@ -36,9 +37,23 @@ std::array<int, 2> ends_of(const mfem::Mesh &mesh, int element, int side)
    return {vertices[at[0]], vertices[at[1]]};
 }
 
-std::vector<OuterEdge> outer_edges(mfem::Mesh &mesh, const std::vector<int> &attributes,
-                                   const std::vector<int> &curves)
+Vector2d place_of_vertex(const mfem::Mesh &mesh, int vertex)
 {
+   const double *at = mesh.GetVertex(vertex);
+   return {at[0], at[1]};
+}
+
+Vector2d chord_of(const mfem::Mesh &mesh, const OuterEdge &edge)
+{
+   return place_of_vertex(mesh, edge.to) - place_of_vertex(mesh, edge.from);
+}
+
+std::vector<OuterEdge> outer_edges(mfem::Mesh &mesh, const std::vector<int> &attributes,
+                                   const std::vector<int> &curves,
+                                   const std::vector<int> &planes)
+{
+   const auto among = [](const std::vector<int> &all, int one)
+   { return std::count(all.begin(), all.end(), one) > 0; };
    std::map<std::pair<int, int>, int> elements; // of the boundary, by their ends
    mfem::Array<int> ends;
    for (int i = 0; i < mesh.GetNBE(); ++i)
@@ -63,9 +78,13 @@ std::vector<OuterEdge> outer_edges(mfem::Mesh &mesh, const std::vector<int> &att
       {
          const int i = found->second;
          if (i < static_cast<int>(curves.size())) { edge.curve = curves[i]; }
-         edge.wanted =
-            std::count(attributes.begin(), attributes.end(), mesh.GetBdrAttribute(i)) > 0;
+         edge.wanted = among(attributes, mesh.GetBdrAttribute(i));
+         edge.plane = among(planes, mesh.GetBdrAttribute(i));
       }
+      // The axis needs no support.
+      const double near = 1e-9 * chord_of(mesh, edge).norm();
+      edge.plane = edge.plane || (std::abs(place_of_vertex(mesh, from)[0]) <= near &&
+                                  std::abs(place_of_vertex(mesh, to)[0]) <= near);
       all.push_back(edge);
    }
    return all;
@@ -110,22 +129,12 @@ std::vector<std::vector<OuterEdge *>> rims(std::vector<OuterEdge> &edges)
    return all;
 }
 
-Vector2d place_of_vertex(const mfem::Mesh &mesh, int vertex)
-{
-   const double *at = mesh.GetVertex(vertex);
-   return {at[0], at[1]};
-}
-
 /// What the vertices of a rim are the vertices of.
 void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
 {
    const bool loop = rim.front()->from == rim.back()->to;
    const auto n = static_cast<int>(rim.size());
-   const auto along = [&](int k)
-   {
-      const OuterEdge &edge = *rim[(k + n) % n];
-      return Vector2d(place_of_vertex(mesh, edge.to) - place_of_vertex(mesh, edge.from));
-   };
+   const auto along = [&](int k) { return chord_of(mesh, *rim[(k + n) % n]); };
    // Between corners, which a side ends at: beyond them may be a plane of symmetry.
    const auto is_corner = [&](int k) // at the beginning of edge k
    {
@@ -150,8 +159,6 @@ void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
    for (std::size_t c = 0; c + 1 < corners.size(); ++c)
    {
       const int begin = corners[c], end = corners[c + 1];
-      const auto wanted = [](const OuterEdge *edge) { return edge->wanted; };
-      if (std::none_of(rim.begin() + begin, rim.begin() + end, wanted)) { continue; }
       SidePolygon side;
       side.loop = whole;
       for (int k = begin; k < end; ++k)
@@ -162,11 +169,16 @@ void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
       if (!whole)
       {
          side.vertices.push_back(place_of_vertex(mesh, rim[end - 1]->to));
-         if (loop || begin > 0) { side.beyond[0] = along(begin - 1); }
-         if (loop || end < n) { side.beyond[1] = along(end); }
+         const auto plane = [&](int k) { return rim[(k + n) % n]->plane; };
+         if ((loop || begin > 0) && plane(begin - 1)) { side.beyond[0] = along(begin - 1); }
+         if ((loop || end < n) && plane(end)) { side.beyond[1] = along(end); }
       }
-      const std::vector<EdgeBend> bends = smooth_curve(side);
-      for (int k = begin; k < end; ++k) { rim[k]->bend = bends[k - begin]; }
+      const std::vector<EdgeBend> bends = smooth_curve(side), possible = possible_curve(side);
+      for (int k = begin; k < end; ++k)
+      {
+         rim[k]->bend = bends[k - begin];
+         rim[k]->possible = possible[k - begin];
+      }
    }
 }
 
@@ -199,8 +211,7 @@ Blend blend(mfem::Geometry::Type shape, const int *at, const mfem::IntegrationPo
 double curved(mfem::Mesh &mesh, const OuterEdge &edge)
 {
    if (!mesh.GetNodes()) { return 0; }
-   const Vector2d from = place_of_vertex(mesh, edge.from),
-                  chord = place_of_vertex(mesh, edge.to) - from;
+   const Vector2d from = place_of_vertex(mesh, edge.from), chord = chord_of(mesh, edge);
    mfem::IsoparametricTransformation plane;
    mesh.GetElementTransformation(edge.element, &plane);
    const mfem::IntegrationRule &nodes = plane.GetFE()->GetNodes();
@@ -223,7 +234,7 @@ template <class Move>
 void along_edge(const mfem::Mesh &mesh, const OuterEdge &edge, Move move)
 {
    const mfem::FiniteElementSpace &space = *mesh.GetNodalFESpace();
-   const Vector2d chord = place_of_vertex(mesh, edge.to) - place_of_vertex(mesh, edge.from);
+   const Vector2d chord = chord_of(mesh, edge);
    const mfem::FiniteElement &map = *space.GetFE(edge.element);
    const int *at = mesh.GetElement(edge.element)->GetEdgeVertices(edge.side);
    mfem::Array<int> dofs;
@@ -332,46 +343,15 @@ double evenness(mfem::Mesh &mesh, int element)
    return least * weights / sum;
 }
 
-} // namespace
-
-SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &attributes,
-                        const std::vector<int> &curves)
+/// Moves nodes onto the curves of edges, of as many as no element folds for: which ones.
+/// `in_contact` are those of them that count most.
+std::vector<const OuterEdge *>
+move_onto_curves(mfem::Mesh &mesh, int order, const std::vector<OuterEdge> &edges,
+                 const std::vector<const OuterEdge *> &bent,
+                 const std::vector<const OuterEdge *> &in_contact)
 {
-#ifdef MFEM_USE_MPI
-   require(dynamic_cast<const mfem::ParMesh *>(&mesh) == nullptr,
-           "curve sides: the mesh is distributed, it must be curved before it is");
-#endif
-   SmoothSides found;
-   const bool splines = mesh.NURBSext != nullptr, many = !mesh.Conforming();
-   if (splines || many || mesh.Dimension() != 2 || mesh.SpaceDimension() != 2) { return found; }
-   std::vector<OuterEdge> edges = outer_edges(mesh, attributes, curves);
-   std::vector<const OuterEdge *> bent;
-   for (const std::vector<OuterEdge *> &rim : rims(edges))
-   {
-      find_bends(mesh, rim);
-      // A mesh that has curves knows which of its edges are straight.
-      const bool knows =
-         std::any_of(rim.begin(), rim.end(),
-                     [&](const OuterEdge *edge) { return curved(mesh, *edge) > 0.1; });
-      if (knows) { continue; }
-      for (const OuterEdge *edge : rim)
-      {
-         if (!edge->wanted) { continue; }
-         found.chords.push_back(
-            {place_of_vertex(mesh, edge->from), place_of_vertex(mesh, edge->to), edge->bend});
-         if (edge->bend.straight()) { continue; }
-         ++found.edges;
-         const Vector2d chord = found.chords.back().to - found.chords.back().from;
-         found.most = std::max(found.most, std::abs(edge->bend.off(0.5)) * chord.norm());
-         bent.push_back(edge);
-      }
-   }
-   if (bent.empty() || order < 2) { return found; }
-   // Nodes that elements do not share are those of a mesh that is periodic.
+   using Edges = std::vector<const OuterEdge *>;
    const mfem::FiniteElementSpace *space = mesh.GetNodalFESpace();
-   const bool periodic =
-      space && dynamic_cast<const mfem::L2_FECollection *>(space->FEColl()) != nullptr;
-   if (periodic) { return found; }
    const int before_order = space ? space->GetMaxElementOrder() : 1;
    std::map<int, double> before; // of elements, as meshed
    const auto note = [&](int e) { before.emplace(e, evenness(mesh, e)); };
@@ -396,31 +376,151 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
       static_cast<mfem::Vector &>(*mesh.GetNodes()) = as_meshed;
       mesh.NodesUpdated();
    };
-   // The elements beside the curves, where these are sound then.
+   const auto without = [](const Edges &all, const std::set<int> &elements, bool free_alone)
+   {
+      Edges left;
+      std::copy_if(all.begin(), all.end(), std::back_inserter(left),
+                   [&](const OuterEdge *edge) {
+                      return (free_alone && edge->wanted) || elements.count(edge->element) == 0;
+                   });
+      return left;
+   };
+   // 1. The elements beside the curves, where these are sound then.
    move_beside(mesh, bent);
    const std::set<int> folding = unsound();
-   found.moved = true;
-   if (folding.empty()) { return found; }
-   // Else all of them.
+   if (folding.empty()) { return bent; }
+   // 2. All of them.
    put_back();
    for (int e = 0; e < mesh.GetNE(); ++e) { note(e); }
    move_all(mesh, edges, bent);
-   if (unsound().empty()) { return found; }
-   // Else edges of those beside the curves that are not sound stay straight. No element has
-   // nodes that move with another one's edge.
+   if (unsound().empty()) { return bent; }
+   // 3. Free edges of those beside the curves that are not sound stay straight.
    put_back();
-   std::vector<const OuterEdge *> sound;
-   std::copy_if(bent.begin(), bent.end(), std::back_inserter(sound),
-                [&](const OuterEdge *edge) { return folding.count(edge->element) == 0; });
+   const Edges most = without(bent, folding, true);
+   move_beside(mesh, most);
+   if (unsound().empty()) { return most; }
+   // 4. All free edges do, for the sake of those in contact.
+   put_back();
+   move_all(mesh, edges, in_contact);
+   if (unsound().empty()) { return in_contact; }
+   // 5. Edges of all that are not sound do. No element has nodes that move with another one's
+   // edge.
+   put_back();
+   const Edges sound = without(bent, folding, false);
    move_beside(mesh, sound);
-   found.moved = !sound.empty();
+   return sound;
+}
+
+/// How far the curve of an edge leaves its chord, to the right, at 0 <= s <= 1.
+double off(const mfem::Mesh &mesh, const OuterEdge &edge, double s)
+{
+   return edge.bend.off(s) * chord_of(mesh, edge).norm();
+}
+
+/// The wall behind the middle of an edge: how thick it is to the nearest other edge, and what
+/// the curves of both add to it where they are not curved.
+std::optional<WallOfChords> wall_behind(const mfem::Mesh &mesh, const OuterEdge &edge,
+                                        const std::vector<OuterEdge> &edges,
+                                        const std::set<const OuterEdge *> &curved)
+{
+   const Vector2d chord = chord_of(mesh, edge).normalized(), into(-chord[1], chord[0]);
+   WallOfChords found;
+   found.place = 0.5 * (place_of_vertex(mesh, edge.from) + place_of_vertex(mesh, edge.to));
+   found.wall = std::numeric_limits<double>::infinity();
+   for (const OuterEdge &other : edges)
+   {
+      const Vector2d from = place_of_vertex(mesh, other.from) - found.place,
+                     along = chord_of(mesh, other);
+      // Where the way into the body crosses the other edge.
+      const double across = along.dot(chord);
+      if (&other == &edge || std::abs(across) < 1e-9 * along.norm()) { continue; }
+      const double s = -from.dot(chord) / across;
+      const double depth = into.dot(from + s * along);
+      if (s < 0 || s > 1 || depth <= 0 || depth >= found.wall) { continue; }
+      found.wall = depth;
+      found.off = off(mesh, edge, 0.5) + (curved.count(&other) ? 0 : off(mesh, other, s));
+   }
+   if (std::isinf(found.wall)) { return std::nullopt; }
+   return found;
+}
+
+} // namespace
+
+SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &attributes,
+                        const std::vector<int> &curves, const std::vector<int> &planes)
+{
+#ifdef MFEM_USE_MPI
+   require(dynamic_cast<const mfem::ParMesh *>(&mesh) == nullptr,
+           "curve sides: the mesh is distributed, it must be curved before it is");
+#endif
+   SmoothSides found;
+   const bool splines = mesh.NURBSext != nullptr, many = !mesh.Conforming();
+   if (splines || many || mesh.Dimension() != 2 || mesh.SpaceDimension() != 2) { return found; }
+   std::vector<OuterEdge> edges = outer_edges(mesh, attributes, curves, planes);
+   using Edges = std::vector<const OuterEdge *>;
+   Edges bent, in_contact;
+   for (const std::vector<OuterEdge *> &rim : rims(edges))
+   {
+      find_bends(mesh, rim);
+      // A mesh that has curves knows which of its edges are straight.
+      const bool knows =
+         std::any_of(rim.begin(), rim.end(),
+                     [&](const OuterEdge *edge) { return curved(mesh, *edge) > 0.1; });
+      if (knows)
+      {
+         for (OuterEdge *edge : rim) { edge->bend = edge->possible = {}; }
+         continue;
+      }
+      for (const OuterEdge *edge : rim)
+      {
+         if (edge->wanted)
+         {
+            found.chords.push_back({place_of_vertex(mesh, edge->from),
+                                    place_of_vertex(mesh, edge->to), edge->bend,
+                                    edge->possible});
+         }
+         if (edge->bend.straight()) { continue; }
+         bent.push_back(edge);
+         if (!edge->wanted) { continue; }
+         ++found.edges;
+         found.most = std::max(found.most, std::abs(off(mesh, *edge, 0.5)));
+         in_contact.push_back(edge);
+      }
+   }
+   if (bent.empty()) { return found; }
+   // Nodes that elements do not share are those of a mesh that is periodic.
+   const mfem::FiniteElementSpace *space = mesh.GetNodalFESpace();
+   const bool periodic =
+      space && dynamic_cast<const mfem::L2_FECollection *>(space->FEColl()) != nullptr;
+   const Edges moved =
+      order < 2 || periodic ? Edges() : move_onto_curves(mesh, order, edges, bent, in_contact);
+   const std::set<const OuterEdge *> curved(moved.begin(), moved.end());
+   // Edges of sides in contact that stay straight among those that do not.
+   Edges folding;
+   for (const OuterEdge *edge : bent)
+   {
+      const bool lies_on = curved.count(edge) > 0;
+      if (edge->wanted)
+      {
+         found.moved = found.moved || lies_on;
+         if (!lies_on && order >= 2 && !periodic) { folding.push_back(edge); }
+         continue;
+      }
+      ++(lies_on ? found.free_edges : found.free_chords);
+      if (lies_on) { continue; }
+      const auto wall = wall_behind(mesh, *edge, edges, curved);
+      const auto share = [](const WallOfChords &of) { return std::abs(of.off) / of.wall; };
+      if (wall && (!found.thinned || share(*wall) > share(*found.thinned)))
+      {
+         found.thinned = wall;
+      }
+   }
    const auto stays = [&](const SideChord &chord)
    {
-      return std::any_of(bent.begin(), bent.end(),
+      return std::any_of(folding.begin(), folding.end(),
                          [&](const OuterEdge *edge)
                          {
-                            return folding.count(edge->element) > 0 &&
-                                   place_of_vertex(mesh, edge->from) == chord.from &&
+                            return place_of_vertex(mesh, edge->from) == chord.from &&
                                    place_of_vertex(mesh, edge->to) == chord.to;
                          });
    };

@@ -2,17 +2,30 @@
 
 #include <cattaneo/condense/smooth_side.hpp>
 #include <mfem.hpp>
+#include <optional>
 #include <vector>
 
 namespace cattaneo
 {
 
+/// A free side that keeps the chords of a curve, so that the wall beside it is thinner or
+/// thicker than it should be.
+struct WallOfChords
+{
+   Eigen::Vector2d place{0, 0}; ///< the middle of a chord
+   double off = 0;              ///< what the curves add to the wall there
+   double wall = 0;             ///< its thickness without
+};
+
 /// What curve_sides() found and did.
 struct SmoothSides
 {
-   int edges = 0;      ///< boundary elements that are taken for chords of smooth curves
-   double most = 0;    ///< the farthest that a curve is from its chord
-   bool moved = false; ///< nodes of the mesh lie on the curves of `chords` now
+   int edges = 0;       ///< elements of the sides that are taken for chords of smooth curves
+   double most = 0;     ///< the farthest that a curve is from its chord
+   bool moved = false;  ///< nodes of the mesh lie on the curves of `chords` now
+   int free_edges = 0;  ///< of the body's other sides: chords whose nodes lie on curves now
+   int free_chords = 0; ///< and those whose nodes do not
+   std::optional<WallOfChords> thinned; ///< of these the one whose wall changes most
    /// The edges along those sides, with the curve of each (straight ones too): for
    /// bend_elements(line, chords).
    std::vector<SideChord> chords;
@@ -24,17 +37,22 @@ struct SmoothSides
 /** Takes sides of a mesh with straight edges for the smooth curves that their vertices are of
     (smooth_curve()), where they are, and moves the nodes of elements of `order` 2 or more onto
     them: the mesh gets nodes of that order (mfem::Mesh::SetCurvature), of which those along the
-    sides, and those within the elements beside them, move; vertices stay. Real corners stay,
-    and so do sides whose edges are curved already. Elements beside the sides that would fold
-    take the next ones with them; where that does not help their edges stay straight
-    (SmoothSides::folding), and only theirs. With `order` 1 nothing is moved: contact_line()
-    knows of curves by itself.
+    sides, and those within the elements beside them, move; vertices stay. All sides of the body
+    are curved, as a wall between a curve and chords has not its thickness; the answer lists
+    those in contact. Real corners stay, and so do sides whose edges are curved already.
+   Elements beside the sides that would fold take the next ones with them; where that does not
+   help edges of free sides stay straight, then those of sides in contact
+   (SmoothSides::folding), and only theirs. With `order` 1 nothing is moved: contact_line()
+   knows of curves by itself.
 
-    @param attributes boundary attributes of the sides that are looked at
+    @param attributes boundary attributes of the sides in contact
     @param curves of each boundary element the curve of the file that it is on, see
            read_mesh(); empty: not known
+    @param planes boundary attributes that supports hold, which may be planes of symmetry: only
+           there, and at x = 0, does a curve go on as its mirror image
     @return what was done. InputError of an mfem::ParMesh: to be called before it is made. */
 SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &attributes,
-                        const std::vector<int> &curves = {});
+                        const std::vector<int> &curves = {},
+                        const std::vector<int> &planes = {});
 
 } // namespace cattaneo

@@ -99,10 +99,12 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
    if (!after) { return unknown; }
    const VectorXd now = p.cwiseQuotient(problem.weights),
                   then = after->cwiseQuotient(problem.weights);
-   const double peak = now.maxCoeff();
+   Index largest = 0;
+   const double peak = now.maxCoeff(&largest);
    // What bears is no more than round-off of what the curves would press: nothing is known.
    if (peak <= 1e-9 * then.maxCoeff()) { return unknown; }
-   return {(then - now).cwiseAbs().maxCoeff() / peak, std::abs(then.maxCoeff() - peak) / peak};
+   const double of_peak = std::max(std::abs(then.maxCoeff() - peak), peak - then[largest]);
+   return {(then - now).cwiseAbs().maxCoeff() / peak, of_peak / peak};
 }
 
 } // namespace cattaneo

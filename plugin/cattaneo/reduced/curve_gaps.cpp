@@ -29,8 +29,7 @@ CurveGaps curve_gaps(const ContactLine &line, const std::vector<int> &nodes,
    };
    return {across([](const ContactLine &one) -> MatrixX2d
                   { return one.outline() - one.each(&LineNode::position); }),
-           across([](const ContactLine &one) -> MatrixX2d
-                  { return one.off_curves() * (one.as_meshed ? 1 : 0); }),
+           across([](const ContactLine &one) -> MatrixX2d { return one.off_unmeasured(); }),
            across([](const ContactLine &one) { return one.bulges(); })};
 }
 

@@ -3,6 +3,8 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/bodies_union.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 namespace cattaneo
@@ -215,6 +217,117 @@ void say_short_edges(const Reduction &reduction, const InterfaceReport &face,
       "that its neighbours should: make the lengths of the edges change more slowly"));
 }
 
+/// An element of a line with what it is a chord of, and what is beside it.
+struct LineEdge
+{
+   const LineElement *element = nullptr;
+   Vector2d from, to;
+   /// Turns to the elements before and after, over half of the sum of both lengths: the
+   /// curvature of a curve through its ends; not known at ends of the line.
+   std::array<std::optional<double>, 2> curvature;
+
+   double length() const { return (to - from).norm(); }
+   bool follows_curve() const { return element->bend && !element->bend->straight(); }
+};
+
+std::vector<LineEdge> edges_of(const ContactLine &line)
+{
+   std::vector<LineEdge> all;
+   for (const LineChain &chain : line.chains)
+   {
+      const std::size_t first = all.size(), count = chain.elements.size();
+      for (const LineElement &element : chain.elements)
+      {
+         all.push_back({&element, element.points.leftCols(1), element.points.rightCols(1), {}});
+      }
+      for (std::size_t k = 0;
+           k < (chain.loop ? count : count - std::min<std::size_t>(count, 1)); ++k)
+      {
+         LineEdge &one = all[first + k], &next = all[first + (k + 1) % count];
+         const Vector2d a = one.to - one.from, b = next.to - next.from;
+         const double turn = std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+         one.curvature[1] = next.curvature[0] = 2 * turn / (one.length() + next.length());
+      }
+   }
+   return all;
+}
+
+/// Edges that stay a polygon though the other side is a smooth curve that their vertices fit.
+void say_polygon(const Reduction &reduction, const InterfaceReport &face,
+                 const std::vector<bool> &bears, std::vector<std::string> &said)
+{
+   const bool any =
+      std::any_of(bears.begin() + face.first, bears.begin() + face.first + face.nodes,
+                  [](bool one) { return one; });
+   if (face.bodies[1] < 0 || face.bodies[0] == face.bodies[1] || !any) { return; }
+   for (const std::size_t k : {0, 1})
+   {
+      const CondensedBody &body = reduction.bodies[face.bodies[k]],
+                          &other = reduction.bodies[face.bodies[1 - k]];
+      if (body.line.as_meshed || other.line.as_meshed) { continue; }
+      const std::vector<LineEdge> own = edges_of(body.line), facing = edges_of(other.line);
+      int count = 0;
+      double most = 0, gap = 0;
+      Vector2d place(0, 0);
+      for (const LineEdge &edge : own)
+      {
+         if (!edge.element->bend || edge.follows_curve()) { continue; }
+         const Vector2d middle = 0.5 * (edge.from + edge.to);
+         // The curve over against its middle.
+         const LineEdge *nearest = nullptr;
+         double away = 0.5 * edge.length();
+         for (const LineEdge &curve : facing)
+         {
+            if (!curve.follows_curve() || (curve.to - curve.from).dot(edge.to - edge.from) >= 0)
+            {
+               continue;
+            }
+            const double distance = distance_from(middle, curve.from, curve.to);
+            if (distance >= away) { continue; }
+            away = distance;
+            nearest = &curve;
+         }
+         if (!nearest) { continue; }
+         const EdgeBend &bend = *nearest->element->bend;
+         const double its = 2 * std::sin(0.5 * (bend.begin + bend.end)) / nearest->length();
+         // Seen from the other side the curve turns the other way. Not known at both ends: no
+         // polygon.
+         bool fits = edge.curvature[0] || edge.curvature[1];
+         for (const std::optional<double> &turns : edge.curvature)
+         {
+            fits = fits && (!turns || std::abs(*turns + its) <= 0.3 * std::abs(its));
+         }
+         const double off = std::abs(its) * edge.length() * edge.length() / 8;
+         if (!fits || off <= 1e-6 * edge.length()) { continue; }
+         // The gap of the nodes beside it, which may be large against that.
+         double least = std::numeric_limits<double>::infinity();
+         for (Index i = 0; i < face.nodes; ++i)
+         {
+            const Vector2d node = face.position.row(i);
+            if (distance_from(node, edge.from, edge.to) > edge.length()) { continue; }
+            least = std::min(least, std::abs(reduction.problem.gap[face.first + i]));
+         }
+         if (least > 20 * off) { continue; }
+         ++count;
+         if (off <= most) { continue; }
+         most = off;
+         gap = least;
+         place = middle;
+      }
+      if (count == 0) { continue; }
+      said.push_back(sentence(
+         "interface '", face.name, "': ", count, " straight edges of ",
+         called(reduction.bodies, face.bodies[k]), ", most at ", at(place),
+         ", stay a polygon, while the other side is a smooth curve that their vertices fit: "
+         "the "
+         "gap between them is wrong by up to ",
+         most, " where it is ", gap,
+         " (the least beside it), and nodes may bear nothing that should: give the side more "
+         "edges (an arc has five or more), one curve of its file, or curved elements, or take "
+         "both as meshed"));
+   }
+}
+
 } // namespace
 
 std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eigen::VectorXd &p)
@@ -244,6 +357,7 @@ std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eig
       if (face.tied) { continue; }
       say_normals(problem, face, bears, said);
       say_held(reduction, face, bears, said);
+      say_polygon(reduction, face, bears, said);
       say_short_edges(reduction, face, p, said);
    }
    return said;

@@ -28,7 +28,9 @@ constexpr double uneven_edges = 0.2;
       lean: how much of the tangential force is the support's is not determined, and friction
       there is taken for none;
     - a node at an edge of less than uneven_edges of the length of the edge beside it, where it
-      bears more than 1.25 times the largest pressure at all other nodes of its interface.
+      bears more than 1.25 times the largest pressure at all other nodes of its interface;
+    - straight edges that stay a polygon where the other side is a smooth curve that their
+      vertices fit: the gap is wrong by what their chords are off it.
 
     p: normal forces of the nodes, of a state or the largest of a march; a node with more than
     1e-6 of the largest one bears. InputError unless there is one for each contact node. */

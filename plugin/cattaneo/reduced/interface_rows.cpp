@@ -39,7 +39,10 @@ ContactLine other_face(const ContactLine &line)
          std::reverse(element.nodes.begin(), element.nodes.end());
          for (Index &node : element.nodes) { node = number(node); }
          element.points = element.points.rowwise().reverse().eval();
-         if (element.bend) { element.bend = {-element.bend->end, -element.bend->begin}; }
+         for (EdgeBend *bend : {element.bend ? &*element.bend : nullptr, &element.possible})
+         {
+            if (bend) { *bend = {-bend->end, -bend->begin}; }
+         }
       }
    }
    return made;

@@ -90,7 +90,10 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
 struct ChordalError
 {
    double at_a_node = 0; ///< the largest change of the pressure of a node
-   double of_peak = 0;   ///< the change of the largest pressure, which may move to another node
+   /// The change of the largest pressure, which may move to another node; at least the fall of
+   /// the pressure at the node that has it now, as others may then be largest only because
+   /// pressures swing from node to node, of linear elements above all.
+   double of_peak = 0;
 };
 
 /** How pressures would change if gaps were those of the curves, with the displacements along

@@ -94,12 +94,44 @@ struct Outline
       const LineElement &element = *curve.element;
       const Vector2d off = element.off_curve(s), from = element.points.col(0);
       (as_meshed ? left : place) += off;
+      left += element.off_possible(s);
       if (as_meshed || !element.bend || element.bend->straight()) { return; }
       // Across the chord, wherever along it the point is.
       const Vector2d chord = element.points.rightCols(1) - from, right(chord[1], -chord[0]);
       curved = right.dot(place - from) / right.squaredNorm() * right;
    }
 };
+
+/// Is the outline of an element a curve that it is a chord of?
+bool follows_curve(const ElementCurve &curve, bool as_meshed)
+{
+   return !as_meshed && curve.element->bend && !curve.element->bend->straight();
+}
+
+/** Where on the curve of another element is what faces a point of an outline, across the mean
+   of both curves' own directions; t: where elements say that it is. Two arcs of one circle are
+   at the same place there, and their gap is zero whatever their chords. The answer may lie a
+    little beyond the element's ends: there its curve goes on. */
+double opposite_on_curve(const ElementCurve &first, double s, const ElementCurve &other,
+                         double t)
+{
+   const LineElement &one = *first.element, &two = *other.element;
+   const Vector2d place = Outline(first, s, false).place, along = one.curve_tangent(s),
+                  chord = two.points.rightCols(1) - two.points.leftCols(1);
+   double at = t;
+   for (int step = 0; step < 20; ++step)
+   {
+      const Vector2d direction = two.curve_tangent(at), mean = along - direction;
+      const double speed = chord.norm() * chord.norm() / chord.dot(direction);
+      const double by =
+         (place - Outline(other, at, false).place).dot(mean) / (speed * direction.dot(mean));
+      if (!(std::abs(at + by - t) < 0.2)) { return t; } // not near: as the elements say
+      at += by;
+      if (std::abs(by) < 1e-15) { break; }
+   }
+   // Elements that match do so to the last bit.
+   return std::abs(at - (1 - s)) <= 1e-13 ? 1 - s : at;
+}
 
 /// Linear from each place to the next and constant beyond the outer ones, never negative, at
 /// all points: functions × points. Their kinks are not integrated exactly, which does not
@@ -349,7 +381,11 @@ std::vector<Point> Assembly::points_of(std::size_t element) const
       for (Index k = 0; k < rule.points.size(); ++k)
       {
          const double s = part.from + (part.to - part.from) * rule.points[k];
-         const double t = lines_.opposite(part, s);
+         double t = lines_.opposite(part, s);
+         if (follows_curve(curve, slave_.as_meshed) && follows_curve(other, master_.as_meshed))
+         {
+            t = opposite_on_curve(curve, s, other, t);
+         }
          const Outline own(curve, s, slave_.as_meshed), faced(other, t, master_.as_meshed);
          points.push_back({s, rule.weights[k] * (part.to - part.from) * weight_at(curve, s),
                            part.other, curve.functions(s), other.functions(t),

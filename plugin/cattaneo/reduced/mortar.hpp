@@ -50,9 +50,10 @@ struct Mortar
    Eigen::VectorXd arm;
    /** What the gap would grow by if elements were smooth curves that they are not taken for:
        those that a straight element of a line that is as meshed is a chord of
-       (LineElement::bend), and where none is known curves through its nodes with the tangents
-      of the line, an estimate that is none at corners, where a line turns by more than 35
-       degrees. */
+       (LineElement::bend), those that elements of a polygon may belong to
+       (LineElement::possible), and where none is known curves through its nodes with the
+      tangents of the line, an estimate that is none at corners, where a line turns by more than
+      35 degrees. */
    Eigen::VectorXd chords;
    /// The angle between the normals of both lines, in radians; 0: they are opposite.
    Eigen::VectorXd turn;

@@ -164,6 +164,7 @@ StayedClosed stay_closed(const ReducedProblem &problem, const LoadCycle &cycle,
    };
    MarchSettings settings;
    settings.monitor = monitor;
+   settings.every_event = true; // a node may open between two stops
    ContactState state = ContactState::virgin(problem);
    StayedClosed stayed;
    stayed.march = march(problem, history, state, settings, observe);

@@ -146,6 +146,7 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    // A march ends where slip changes little from cycle to cycle: little beside the elastic
    // slip, however large the start is. Round-off of the start is no change.
    MarchSettings marching = settings.march;
+   marching.every_event = true; // the range of slip is reached at one of them
    const double begun = start.lpNorm<Eigen::Infinity>();
    if (begun > report.elastic_slip && report.elastic_slip > 0)
    {

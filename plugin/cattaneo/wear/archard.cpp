@@ -2,6 +2,8 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/wear/worn_derivative.hpp>
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace cattaneo
 {
@@ -22,13 +24,18 @@ void WearLaw::set(const ReducedProblem &problem, const std::string &interface,
    require(coefficient.size() == problem.nodes(), "wear law: ", coefficient.size(),
            " coefficients for ", problem.nodes(), " contact nodes, must be one for each");
    bool found = false;
+   std::set<std::string> names;
    for (const ContactChain &chain : problem.chains)
    {
+      names.insert("'" + chain.interface + "'");
       if (chain.interface != interface) { continue; }
       coefficient.segment(chain.first, chain.nodes).setConstant(coefficient_there);
       found = true;
    }
-   require(found, "wear law: the problem has no interface '", interface, "'");
+   std::string all;
+   for (const std::string &name : names) { all += (all.empty() ? "" : ", ") + name; }
+   require(found, "wear law: the problem has no interface '", interface,
+           "', must be one of: ", all);
 }
 
 void WearLaw::validate(const ReducedProblem &problem) const

@@ -30,6 +30,7 @@ WearCycles::WearCycles(const ReducedProblem &problem, const WearLaw &law,
    history_.cycles = 1;
    settings_.monitor.progress = {}; // of all of them it is another's; each may be stopped
    settings_.keep_increments = false;
+   settings_.every_event = true; // between two of them the path is straight
    counters += solver_.counters();
 }
 

@@ -16,10 +16,18 @@ public:
    /// `size`: bound of |u| entry by entry; f: forces with u = 0.
    Eigen::VectorXd rows(const Eigen::VectorXd &size, const Eigen::VectorXd &f) const;
 
+   /// At most what any row has, without a look at K; u itself, f as before.
+   double most(const Eigen::VectorXd &u, const Eigen::VectorXd &f) const;
+
 private:
+   Eigen::VectorXd product(const Eigen::VectorXd &size) const;
+
    const Eigen::Ref<const Eigen::MatrixXd> K_;
    double norm_ = 0;
    bool graded_ = false;
+   /// |K| over its norm, in single precision: an estimate needs few digits. Of a stiffness that
+   /// is not large, made when first needed.
+   mutable Eigen::MatrixXf sizes_;
 };
 
 } // namespace cattaneo

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cattaneo/algebra/shared_matrix.hpp>
 #include <cattaneo/condense/rigid_motion.hpp>
+#include <optional>
 #include <vector>
 
 namespace cattaneo
@@ -53,6 +54,23 @@ bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double mos
 /// its component takes there.
 bool is_linked(const RowEntries &entries, Formulation formulation, int component, double most,
                double resistance);
+
+/// A direction of a node in which nothing links the node with others.
+struct AloneDirection
+{
+   int x = 0, y = 0;          ///< the node's dofs
+   Eigen::Vector2d direction; ///< of length 1, neither along x nor along y
+   double diagonal = 0;       ///< what K holds along it
+};
+
+/** The first node with a direction across the axes that nothing but a diagonal holds, to 1e-12
+    of what the node's rows hold: a support on a slope that was eliminated in axes of its own
+    before K was turned back to x and y. Rows of `fixed` dofs (sorted) are not looked at.
+
+    Both of the node's rows have entries beside it then, but these are multiples of each other,
+    and the direction that they leave out is a principal one of the node's own 2 × 2 block. */
+std::optional<AloneDirection> alone_on_a_slope(const SparseView &K, const DofPlaces &places,
+                                               const std::vector<int> &fixed);
 
 /// K without what links the sorted `rows` with any other: round-off, of eliminated ones.
 SharedMatrix without_links(const SharedMatrix &K, const std::vector<int> &rows);

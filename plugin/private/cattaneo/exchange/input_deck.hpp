@@ -19,8 +19,14 @@ struct Card
    std::vector<Value> values;
 };
 
-/** What an .inp of CalculiX or ABAQUS says of plane bodies. Names are in capitals, those of an
-    instance without its own. */
+/// What an elastic *MATERIAL has, isotropic and the same at all temperatures.
+struct DeckMaterial
+{
+   double young = 0, poisson = 0;
+};
+
+/** What an .inp of CalculiX or ABAQUS says of plane bodies. Names are in capitals. Of several
+    instances one is left, its sets without the name of the instance. */
 struct InputDeck
 {
    using Nodes = NodalStiffness::Nodes;
@@ -41,16 +47,38 @@ struct InputDeck
    std::map<std::string, std::vector<std::size_t>> element_sets; ///< indices of elements
    std::vector<Nodes> edges;                                     ///< as outer_edges() has them
    std::map<std::string, std::vector<Nodes>> surfaces;           ///< of these edges
-   int sections = 0;
+   std::vector<std::string> sections; ///< the names of their materials
+   /// By their names; those that are not isotropic, or not elastic, are not there.
+   std::map<std::string, DeckMaterial> materials;
    std::vector<Card> cards;
    std::set<std::string> keywords; ///< all that are there
 };
 
-/** Reads nodes, elements, sets, surfaces, sections, and what *CLOAD and *BOUNDARY say in any
-    step; *INCLUDE is followed, what else there is passed over. InputError, with file and line,
-    for what would make the body another one than is thought: nodes off z = 0, *TRANSFORM,
-    couplings of nodes, several parts, instances that are moved, a thickness that is not 1,
-    elements of both formulations, surfaces inside of the body. */
-InputDeck read_input_deck(const std::string &file);
+/// What a deck is read for.
+enum class DeckUse
+{
+   stiffness, ///< nodes, supports and loads beside a matrix
+   mesh       ///< elements and names alone
+};
+
+/// Which body of a deck is read.
+struct DeckPart
+{
+   std::string name; ///< of an instance, else of a set of elements; empty: there is one body
+   /// Of several instances the one of this name if none is named.
+   std::string usual = {};
+};
+
+/** Reads nodes, elements, sets, surfaces, sections and materials; for DeckUse::stiffness also
+    what *CLOAD and *BOUNDARY say in any step. *INCLUDE is followed. What else there is, is
+    passed over: contact pairs, steps and loads of a mesh. Each *INSTANCE is a copy of its part
+    that may be moved and turned in the plane.
+
+    InputError, with file and line, for what would make the body another one than is thought:
+    cards that make nodes or elements, couplings of nodes, nodes that are not in one plane, to
+    1e-9 of the extent of the body, a thickness that is not 1, elements of both formulations,
+    surfaces inside of the body, several instances or parts of which none is named. Beside a
+    matrix also for *TRANSFORM, contact pairs and a second instance. */
+InputDeck read_input_deck(const std::string &file, DeckUse use, const DeckPart &part = {});
 
 } // namespace cattaneo

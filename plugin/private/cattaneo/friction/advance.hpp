@@ -13,7 +13,7 @@ namespace cattaneo
 bool closes(const ReducedProblem &problem, const ContactState &before,
             const ContactState &after);
 
-/// True if contact advances by more than a layer of nodes (see Stepping::advancing).
+/// True if contact advances by more than a layer of nodes (see Stepping::exact).
 bool advances_too_far(const ReducedProblem &problem, const ContactState &before,
                       const ContactState &after);
 

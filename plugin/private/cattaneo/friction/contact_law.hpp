@@ -42,8 +42,13 @@ public:
    bool none() const { return !law_ && lines_[0].slope == 0 && lines_[1].slope == 0; }
    /// Has pieces, so that no one line is it.
    bool bends() const { return law_ != nullptr; }
-   /// The lines of the pieces at p.
+   /// The lines of the pieces at p; at a bend those below it.
    FrictionBound straight(double p) const;
+   /// The same without what does not go with p: the bound of the rates of a node at p.
+   FrictionBound of_rates(double p) const;
+   /// The pressure at which the bound bends next, from p down (`way` < 0) or up, in whatever
+   /// sense of slip; it may be p itself. Infinite: it does not.
+   double bend(double p, double way) const;
    /// Nothing in tension.
    double at(double p, double sense = 0) const { return line(std::max(p, 0.0), sense); }
    /// Without the end at p = 0: the straight piece of it goes on into tension.

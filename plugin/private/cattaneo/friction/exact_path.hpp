@@ -4,6 +4,7 @@
 #include <cattaneo/friction/complementarity.hpp>
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
+#include <optional>
 #include <string>
 
 namespace cattaneo
@@ -12,6 +13,16 @@ namespace cattaneo
 /// Adds the nodes of a state that change to other states there.
 void list_changes(const ContactState &from, const std::vector<NodeState> &to,
                   std::vector<StateChange> &changes);
+
+/// The way of an exact path: the loads change linearly from those of the state to `multipliers`
+/// at `time`, and are followed as far as a stop on the way, at the latest their end.
+struct PathWay
+{
+   double time;                        ///< of its end
+   const Eigen::VectorXd &multipliers; ///< there
+   double stop;                        ///< time of the stop
+   const Eigen::VectorXd &at_stop;     ///< multipliers there
+};
 
 /** The exact path of frictional contact: where loads change linearly, displacements and forces
     do too, until a node reaches a boundary of its state (a gap closes, a pressure vanishes,
@@ -33,56 +44,84 @@ public:
    /// from one; an initial slip or interference is none.
    bool starts_from(const ContactState &state) const;
 
-   /** Advances `state` along loads that change linearly to `multipliers` at `time`, as far as
-       the next event or to there, and appends the changes of state with which it set out.
+   /** Advances `state` as far as the next event or the stop, and appends the changes of state
+       with which it set out. A stop is no event: the rates and the factor go on over it.
        False, with the state unchanged, if no rates meet the laws (see failure()): the loads
        cannot rise further, or not slowly. */
-   bool advance(ContactState &state, double time, const Eigen::VectorXd &multipliers,
-                std::vector<StateChange> &changes);
+   bool advance(ContactState &state, const PathWay &way, std::vector<StateChange> &changes);
 
    /// Node that met the boundary of its state where the last advance() ended; -1: none did.
-   Eigen::Index event() const { return event_; }
+   Eigen::Index event() const { return last_.event; }
    /// How well the slips of the last advance() are known, one for each node: round-off of the
    /// state before, times what the conditioning of the equations makes of it.
-   const Eigen::VectorXd &slip_error() const { return slip_error_; }
-   const std::string &failure() const { return failure_; }
+   const Eigen::VectorXd &slip_error() const { return last_.slip_error; }
+   const std::string &failure() const { return last_.failure; }
    /// The method that found the rates of the last advance(), as a march records it.
-   const char *found_by() const { return found_by_; }
+   const char *found_by() const { return last_.found_by; }
    /// The last advance() failed since no rates meet the laws, with equations that can be
    /// solved.
-   bool ended() const { return ended_; }
+   bool ended() const { return last_.ended; }
    const Counters &counters() const { return counters_; }
 
 private:
+   double set_out(const ContactState &state, const PathWay &way);
    void find_choices(const ContactState &state);
+   bool take_piece(Eigen::Index node, double pressure);
+   bool find_pieces(const ContactState &state);
+   bool turn_bends();
+   Eigen::VectorXd intercepts(const std::vector<NodeState> &states) const;
+   bool set_states(const ContactState &state);
    bool hold_pivot(std::vector<NodeState> states);
    bool release_pivot();
-   bool find_rates(const ContactState &state, const Eigen::VectorXd &multipliers);
+   bool search_rates(std::optional<ComplementarityReport> known);
+   bool find_rates(const ContactState &state, const PathWay &way);
    double left(Eigen::Index node, double sense) const;
    double rate(Eigen::Index node, double sense) const;
    template <class Visitor>
    void for_each_boundary(Visitor visit) const;
-   double way_to_event();
-   double way_past_event() const;
+   double share_to_event(double stop);
+   double share_past_event() const;
+   double go(double share, const std::vector<NodeState> &states, const Eigen::VectorXd &loads);
+   void write(ContactState &state, std::vector<NodeState> states, double present) const;
 
    const ReducedProblem &problem_;
-   const Eigen::MatrixXd &K_; // the problem's
-   StateEquations equations_;
+   const Eigen::MatrixXd &K_;                // the problem's
+   const std::vector<FrictionBound> bounds_; // of the nodes
+   std::vector<FrictionBound> pieces_;       // of them, straight ones, at the present pressures
+   /// A node at a bend of its bound, and the side of it to which its pressure goes.
+   struct Bend
+   {
+      Eigen::Index node;
+      double pressure, side;
+   };
+   std::vector<Bend> bends_;
+   StateEquations equations_;        // with the bounds of rates
    Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
-   Eigen::VectorXd u_rate_, F_rate_; // over the rest of the piece
-   // Where u_rate_ and F_rate_ hold with the states of the equations, as long as those stay.
-   Eigen::VectorXd reached_, target_;
+   Eigen::VectorXd u_rate_, F_rate_; // over the rest of the way
+   /// Where the rates hold with the states of the equations, as long as these stay: the loads
+   /// of the state and of the end of the way.
+   struct
+   {
+      Eigen::VectorXd from, to;
+   } known_;
    ComplementarityProblem rates_;
-   Eigen::VectorXd slip_error_;
    Eigen::VectorXd noise_; // of each node: forces below this are round-off
-   // A motion that nothing resists and nothing drives, and the node that is said to touch while
-   // rates are found; -1: there is none.
-   Eigen::VectorXd pivot_;
-   Eigen::Index held_ = -1;
-   bool ended_ = false;
-   Eigen::Index event_ = -1;
-   std::string failure_;
-   const char *found_by_ = "";
+   /// A motion that nothing resists and nothing drives, and the node that is said to touch
+   /// while rates are found; -1: there is none.
+   struct
+   {
+      Eigen::VectorXd motion;
+      Eigen::Index node = -1;
+   } pivot_;
+   /// What the last advance() came to.
+   struct
+   {
+      bool ended = false;
+      Eigen::Index event = -1;
+      std::string failure;
+      const char *found_by = "";
+      Eigen::VectorXd slip_error;
+   } last_;
    Counters counters_;
 };
 

@@ -5,6 +5,34 @@
 namespace cattaneo
 {
 
+/// A step of a march: an increment, or on an exact path the way to the next event or stop.
+struct MarchStep
+{
+   ContactState state; ///< at its end
+   IncrementReport increment;
+   Eigen::Index event = -1; ///< IncrementRecord's
+   bool exact = false;      ///< by the exact path, or by one increment where that is exact
+   bool resumes = true;     ///< IncrementRecord's
+   bool row = true; ///< an IncrementRecord ends here; an event between two stops has none
+
+   /// May it be accepted?
+   bool solved() const
+   {
+      return increment.status == FrictionStatus::converged ||
+             increment.status == FrictionStatus::not_unique;
+   }
+   bool stalled() const { return increment.status == FrictionStatus::stalled; }
+};
+
+/// What friction took in a march.
+struct Losses
+{
+   std::vector<double> pieces; ///< of each piece of the history that was marched, in order
+   Eigen::VectorXd nodes;      ///< of each node; empty without friction
+   double most_work = 0;       ///< largest |external work| on the way
+   bool inexact = false;       ///< there were increments that are not exact
+};
+
 /// What a march has come to: its state, and the report of the increments that led there.
 class MarchRecord
 {
@@ -15,45 +43,46 @@ public:
 
    MarchReport report;
 
+   /// The state, in which nothing was accepted yet, is another one.
+   void restart();
    /// The state stands where a cycle begins, or, not `whole`, within it.
    void begin_cycle(int number, bool whole);
-   /// The end of an increment of a piece becomes the state. `exact`: by the exact path, or by
-   /// one increment where that is exact. `resumes`, `event`: see IncrementRecord.
-   void accept(ContactState &&next, const LoadPiece &piece, const IncrementReport &increment,
-               bool exact, bool resumes, Eigen::Index event);
+   /// The end of a step of a piece becomes the state.
+   void accept(MarchStep &&step, const LoadPiece &piece);
    /// The state stands at the last load with an equilibrium.
    void stop(const IncrementReport &failure);
-   /// The balance of energy, and how far the march came.
+   /// The last row, the balance of energy, and how far the march came.
    void close();
-
-   /// The loss of each piece of the history that was marched, from the first one on.
-   const std::vector<double> &piece_losses() const { return piece_losses_; }
-   /// The loss of each node; empty without friction.
-   const Eigen::VectorXd &node_losses() const { return node_losses_; }
-   /// The largest work of the loads on the way.
-   double most_work() const { return most_work_; }
-   /// Were there increments that are not exact?
-   bool inexact() const { return inexact_; }
+   const Losses &losses() const { return losses_; }
+   /// Is a step accepted that no row has yet?
+   bool within_row() const { return row_begun_; }
 
 private:
+   double add_energies(const ContactState &next, const LoadPiece &piece, bool exact);
+   void find_cut_off();
    void end_cycle();
-   /// Of the increment from the state to that of the record.
-   double external_work(const IncrementRecord &record) const;
+   void end_row();
+   /// Of the step from the state to these multipliers and conjugates.
+   double external_work(const Eigen::VectorXd &multipliers,
+                        const Eigen::VectorXd &conjugates) const;
 
    const ReducedProblem &problem_;
    ContactState &state_;
    const MarchSettings &settings_;
    const MarchObserver &observer_;
    Eigen::VectorXd conjugates_; // of the state
-   double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
-   double most_work_ = 0; // largest |external work| on the way
-   const double energy_at_start_;
-   double changed_ = 0;      // see changed_while_closing()
-   double moved_energy_ = 0; // all energies that were added up, without their signs
-   std::vector<double> piece_losses_;
-   Eigen::VectorXd node_losses_;
-   double piece_end_ = -std::numeric_limits<double>::infinity(); // of the last of them
-   bool inexact_ = false;
+   /// Sums over all steps.
+   struct
+   {
+      double external_work = 0, dissipation = 0, normal_work = 0;
+      double moved = 0; // all energies that were added up, without their signs
+   } sums_;
+   double energy_at_start_ = 0;
+   double changed_ = 0; // see changed_while_closing()
+   Losses losses_;
+   double piece_end_ = -std::numeric_limits<double>::infinity(); // of the last of its pieces
+   IncrementRecord row_;    // that the steps since the last one add up to …
+   bool row_begun_ = false; // … if there are any
 };
 
 } // namespace cattaneo

@@ -15,8 +15,7 @@ public:
 
    // As ExactPath's.
    bool starts_from(const ContactState &state) const { return whole_.starts_from(state); }
-   bool advance(ContactState &state, double time, const Eigen::VectorXd &multipliers,
-                std::vector<StateChange> &changes);
+   bool advance(ContactState &state, const PathWay &way, std::vector<StateChange> &changes);
    Eigen::Index event() const { return event_; }
    const Eigen::VectorXd &slip_error() const { return slip_error_; }
    const std::string &failure() const { return last_->failure(); }

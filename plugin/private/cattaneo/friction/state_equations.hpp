@@ -34,6 +34,12 @@ public:
    StateEquations(const Eigen::Ref<const Eigen::MatrixXd> &K, std::vector<FrictionBound> bound);
 
    Eigen::Index nodes() const { return n_; }
+   /// Another bound of a node, which the next set() takes up.
+   void set_bound(Eigen::Index node, const FrictionBound &bound)
+   {
+      bound_[node] = bound;
+      bound_changed_ = true;
+   }
    bool tangential() const { return tangential_; } ///< has tangential unknowns
    const Eigen::Ref<const Eigen::MatrixXd> &stiffness() const { return K_; }
    const Eigen::VectorXd &diagonal() const { return diagonal_; }      ///< of K
@@ -71,10 +77,12 @@ public:
    void solve_transposed(const Eigen::VectorXd &g, Eigen::VectorXd &y,
                          Eigen::VectorXd &z) const;
 
-   /// What round-off leaves of forces b + K x, row by row.
-   Eigen::VectorXd round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const
+   /// What round-off leaves of forces b + K x, row by row. That of the last call is known.
+   const Eigen::VectorXd &round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const;
+   /// At most that in any row, without a product with K.
+   double most_round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const
    {
-      return arithmetic_.rows(x.cwiseAbs(), b);
+      return arithmetic_.most(x, b);
    }
 
    /// K x
@@ -121,11 +129,17 @@ private:
 
    const Eigen::Ref<const Eigen::MatrixXd> K_;
    const SymmetricProduct times_K_;
-   const std::vector<FrictionBound> bound_;
+   std::vector<FrictionBound> bound_;
+   bool bound_changed_ = false; // since set()
    const Eigen::Index n_;
    const bool tangential_;
    const Eigen::VectorXd diagonal_;
    const RoundOff arithmetic_;
+   /// Of the last call of round_off().
+   mutable struct
+   {
+      Eigen::VectorXd b, x, rows;
+   } known_;
    std::vector<NodeState> states_;
    std::vector<bool> held_;
    Eigen::VectorXd base_, base_forces_; // forces_again(): of a call before

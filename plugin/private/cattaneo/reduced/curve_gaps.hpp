@@ -11,8 +11,8 @@ namespace cattaneo
 struct CurveGaps
 {
    Eigen::VectorXd moved;  ///< gaps of the outlines over those of the nodes' places
-   Eigen::VectorXd left;   ///< what curves that lines which are as meshed are not taken for
-                           ///< would add
+   Eigen::VectorXd left;   ///< what curves that lines are not taken for, as they are as meshed
+                           ///< or kept polygons, would add
    Eigen::VectorXd curved; ///< gaps of the outlines over those of chords
 };
 

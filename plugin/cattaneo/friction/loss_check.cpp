@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <atomic>
+#include <cattaneo/friction/loss_check.hpp>
+#include <cattaneo/friction/march_run.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// The pieces of a history that were marched, one after the other and none of them again, up to
+/// a time; and the increments of each.
+struct Marched
+{
+   LoadHistory history;
+   std::vector<int> increments;
+};
+
+Marched marched_part(const LoadHistory &history, const MarchSettings &settings, double until)
+{
+   std::vector<double> times;
+   std::vector<VectorXd> loads;
+   Marched part;
+   for (int k = 0; k < history.pieces(); ++k)
+   {
+      const LoadPiece piece = history.piece(k);
+      if (k > 0 && piece.start >= until) { break; }
+      part.increments.push_back(steps_of_piece(settings, piece));
+      if (k == 0)
+      {
+         times.push_back(piece.start);
+         loads.push_back(piece.from);
+      }
+      const bool whole = until >= piece.end;
+      times.push_back(whole ? piece.end : until);
+      loads.push_back(whole ? piece.to : piece.at((until - piece.start) / piece.duration()));
+   }
+   part.history = LoadHistory::through(loads);
+   part.history.times =
+      Eigen::Map<const VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()));
+   return part;
+}
+
+/// How far the loss of a march from `start` may be from that of its path.
+class LossCheck
+{
+public:
+   LossCheck(FrictionSolver &solver, const LoadHistory &history, const ContactState &start,
+             const MarchSettings &settings, const Losses &losses, const MarchReport &report)
+      : solver_(solver), whole_(history), start_(start), settings_(settings), here_(losses),
+        report_(report), part_(marched_part(history, settings, report.time))
+   {
+      settings_.loss_error = settings_.keep_increments = false;
+      settings_.stop_at_steady_state = false;
+      settings_.increments_of_piece = part_.increments;
+      const std::atomic<bool> *const stop = settings.monitor.stop;
+      settings_.monitor = {};
+      settings_.monitor.stop = stop;
+   }
+
+   LossError find();
+
+private:
+   /// Marches the same way otherwise; a sentence if that does not come to where the march came.
+   std::string march_again(Stepping stepping, double share);
+   bool bounded(double &apart);
+   void estimate(double at_least);
+   /// The largest difference of the loss of all pieces, or of those of a cycle.
+   double difference() const;
+
+   FrictionSolver &solver_;
+   const LoadHistory &whole_;
+   const ContactState &start_;
+   MarchSettings settings_;
+   const Losses &here_;
+   const MarchReport &report_;
+   const Marched part_;
+   LossError error_;
+   Losses there_;      // of the other march, …
+   int fallbacks_ = 0; // … and its increments where it had no path
+};
+
+std::string LossCheck::march_again(Stepping stepping, double share)
+{
+   MarchSettings settings = settings_;
+   settings.stepping = stepping;
+   for (int &count : settings.increments_of_piece)
+   {
+      count = std::max(1, static_cast<int>(share * count));
+   }
+   ContactState state = start_;
+   state.cycle_slip.clear();
+   state.cycle.reset();
+   state.step = 0;
+   const MarchObserver nobody;
+   MarchRun again(solver_, part_.history, state, settings, nobody);
+   const MarchReport report = again.run();
+   error_.counters += report.counters;
+   there_ = again.losses();
+   fallbacks_ = report.fallbacks;
+   const bool same = report.time >= report_.time;
+   return same ? "" : std::string(name(report.status)) + ": " + report.message;
+}
+
+double LossCheck::difference() const
+{
+   const std::vector<double> &here = here_.pieces, &there = there_.pieces;
+   double most = 0, all = 0, of_cycle = 0;
+   int cycle = 0;
+   // The first piece of both is the one in which the march begins.
+   int first = 0;
+   while (first + 1 < whole_.pieces() && whole_.piece(first).end <= start_.time) { ++first; }
+   for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k)
+   {
+      const LoadPiece piece = whole_.piece(first + static_cast<int>(k));
+      const double apart = there[k] - here[k];
+      of_cycle = piece.cycle == cycle ? of_cycle + apart : apart;
+      cycle = piece.cycle;
+      all += apart;
+      most = std::max({most, std::abs(all), std::abs(of_cycle)});
+   }
+   return most;
+}
+
+/// In the plane by the exact path itself. False, with a difference or none, where it was not
+/// followed to the end or had increments of its own.
+bool LossCheck::bounded(double &apart)
+{
+   apart = 0;
+   const ReducedProblem &problem = solver_.problem();
+   if (problem.components() != 1 || settings_.stepping == Stepping::exact) { return false; }
+   const std::string why = march_again(Stepping::exact, 1);
+   if (!why.empty()) { return false; }
+   apart = difference();
+   if (fallbacks_ > 0) { return false; }
+   error_.value = apart;
+   error_.bound = true;
+   error_.by = "the exact path was followed beside the march";
+   return true;
+}
+
+/// By half as many increments: the difference is an error of the first order itself, by nodes
+/// and by pieces so that none hides another. Three times that, and a share of the work for the
+/// slip that happens within an increment and shows in neither march, covered 296 of 300 random
+/// problems with two tangential components; it was exceeded by up to 1.8 times.
+void LossCheck::estimate(double at_least)
+{
+   const auto [few, many] = std::minmax_element(settings_.increments_of_piece.begin(),
+                                                settings_.increments_of_piece.end());
+   const double least = *few;
+   const bool halve = *many > 1;
+   const char *other = halve ? "half" : "twice";
+   const std::string why = march_again(settings_.stepping, halve ? 0.5 : 2);
+   if (!why.empty())
+   {
+      error_.by =
+         std::string("a march with ") + other + " as many increments ended elsewhere: " + why;
+      return;
+   }
+   double by_nodes = 0, by_pieces = 0;
+   if (there_.nodes.size() == here_.nodes.size())
+   {
+      by_nodes = (there_.nodes - here_.nodes).cwiseAbs().sum();
+   }
+   const std::vector<double> &here = here_.pieces, &there = there_.pieces;
+   for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k)
+   {
+      by_pieces += std::abs(here[k] - there[k]);
+   }
+   const double missed = 0.1 * here_.most_work / (least * least);
+   error_.value = std::max(at_least, (halve ? 3 : 6) * std::max(by_nodes, by_pieces) + missed);
+   error_.by = std::string("by a march with ") + other + " as many increments";
+}
+
+LossError LossCheck::find()
+{
+   if (!here_.inexact)
+   {
+      error_.value = 0;
+      error_.bound = true;
+      error_.by = "every increment is exact";
+      return error_;
+   }
+   double apart = 0;
+   if (!bounded(apart)) { estimate(apart); }
+   return error_;
+}
+
+} // namespace
+
+LossError loss_error(FrictionSolver &solver, const LoadHistory &history,
+                     const ContactState &start, const MarchSettings &settings,
+                     const Losses &losses, const MarchReport &report)
+{
+   return LossCheck(solver, history, start, settings, losses, report).find();
+}
+
+} // namespace cattaneo
