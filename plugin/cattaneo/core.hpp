@@ -27,6 +27,7 @@
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/half_space_vtu.hpp>
 #include <cattaneo/halfplane/heights.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/readout/areas.hpp>

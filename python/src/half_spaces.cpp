@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "module.hpp"
 #include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/half_space_vtu.hpp>
 #include <cattaneo/halfplane/heights.hpp>
 #include <nanobind/stl/optional.h>
 
@@ -79,6 +80,14 @@ void bind_half_spaces(nb::module_ &m)
          "(m, "
          "6) xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body above, z < 0 "
          "the one below.")
+      .def(
+         "write_vtu",
+         [](const HalfSpace &self, File name, const ReducedProblem &problem,
+            const ContactState &state) { write_vtu(file(name), self, problem, state); },
+         nb::arg("file"), nb::arg("problem"), nb::arg("state"),
+         "Writes a state for ParaView and others: a quadrilateral for each rectangle, with "
+         "pressure, shear, slip, opening and state (NodeState). Numbered names, one for each "
+         "state of a march, are a series.")
       .def_ro("material", &HalfSpace::material, "of the body above")
       .def_ro("other", &HalfSpace::other, nb::sig("def other(self) -> None | Material"),
               "of the half-space below; None: it is rigid")

@@ -1,5 +1,7 @@
 """Contact of half-spaces in three dimensions."""
 
+from xml.etree import ElementTree
+
 import cattaneo
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ from cattaneo import NodeState
 from conftest import ROOT
 
 MATERIAL = cattaneo.Material(young=2.0 * 1.3, poisson=0.3)  # G = 1
+ONE = cattaneo.MarchSettings(increments=1)  # of each leg: slip hardly turns
 
 
 def squares(across, edge):
@@ -25,8 +28,8 @@ def test_sphere_in_stick_and_slip():
     problem = space.problem(gap=(space.centres**2).sum(axis=1) / (2 * radius))
     problem.friction = friction
     assert problem.loads == ["Q1", "Q2", "P"] and problem.components == 2 and not problem.coupled
-    history = [{}, {"P": load}, {"P": load, "Q2": share * friction * load}]
-    state = cattaneo.march(problem, history, increments=1).state
+    history = [{}, {"P": load}, {"Q2": share * friction * load}]
+    state = cattaneo.march(problem, history, settings=ONE).state
     approach = cattaneo.conjugates(problem, state)[problem.loads.index("P")]
     assert approach == pytest.approx(a**2 / radius, rel=2e-3)
     stick = problem.weights[state.status == NodeState.stick].sum()
@@ -60,7 +63,7 @@ def test_stresses_on_the_axis_of_a_sphere():
     edge, load = 2 / 15, 4 / 3 / 0.7 / 20
     space = cattaneo.HalfSpace(MATERIAL, MATERIAL, size=edge, centres=squares(17, edge))
     problem = space.problem(gap=(space.centres**2).sum(axis=1) / 40)
-    state = cattaneo.march(problem, [{}, {"P": load}], increments=1).state
+    state = cattaneo.march(problem, [{}, {"P": load}], settings=ONE).state
     z = np.array([0.3, 1.0, -0.3, -1.0])
     stresses = space.stresses(np.column_stack([0 * z, 0 * z, z]), np.concatenate([state.q, state.p]))
     peak = 1.5 * load / np.pi
@@ -78,7 +81,7 @@ def test_torsion_of_squares_and_of_rings():
     space = cattaneo.HalfSpace(MATERIAL, MATERIAL, size=edge, centres=squares(23, edge), turns=True)
     problem = space.problem(gap=(space.centres**2).sum(axis=1) / (2 * radius))
     problem.friction = f
-    state = cattaneo.march(problem, [{}, {"P": load}, {"P": load, "T": torque}], increments=1).state
+    state = cattaneo.march(problem, [{}, {"P": load}, {"T": torque}], settings=ONE).state
     turn = cattaneo.conjugates(problem, state)[problem.loads.index("T")]
 
     line = np.linspace(0, 1.1 * a, 45)
@@ -95,8 +98,33 @@ def test_torsion_of_squares_and_of_rings():
     patterns = [*rings.patterns, cattaneo.LoadPattern("turn", turning, np.zeros(n), control="displacement")]
     twisted = cattaneo.ReducedProblem(
         rings.A, rings.B, rings.C, patterns, gap=r**2 / (2 * radius), friction=f, weights=rings.weights)
-    state = cattaneo.march(twisted, [{}, {"P": load}, {"P": load, "turn": turn}], increments=1).state
+    state = cattaneo.march(twisted, [{}, {"P": load}, {"turn": turn}], settings=ONE).state
     assert abs(state.q[n:] @ r) == pytest.approx(torque, rel=5e-3)
+
+
+def test_a_file_for_paraview(tmp_path):
+    """What a reader of VTU finds: quadrilaterals that cover the surface once, and the values of the state."""
+    space = cattaneo.HalfSpace(MATERIAL, size=[0.2, 0.3], centres=[[0.0, 0.0], [0.2, 0.0], [0.2, 0.3]])
+    problem = space.problem(gap=[0.0, 0.0, 1.0])
+    problem.friction = 0.3
+    state = cattaneo.march(problem, [{}, {"P": 0.1}, {"Q1": 0.01}], settings=ONE).state
+    file = tmp_path / "contact.vtu"
+    space.write_vtu(file, problem, state)
+    root = ElementTree.parse(file).getroot()
+    found = {
+        each.get("Name"): np.array(each.text.split(), dtype=float).reshape(-1, int(each.get("NumberOfComponents")))
+        for each in root.iter("DataArray")
+    }
+    assert list(found["types"].ravel()) == [9, 9, 9] and list(found["offsets"].ravel()) == [4, 8, 12]
+    x, y = found["Points"][found["connectivity"].astype(int)][:, :, :2].transpose(2, 0, 1)
+    area = 0.5 * (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)  # counter-clockwise
+    assert area == pytest.approx(0.06) and np.column_stack([x.mean(axis=1), y.mean(axis=1)]) == pytest.approx(space.centres)
+    assert (found["pressure"][:, 0] * area).sum() == pytest.approx(0.1)
+    assert (found["shear"] * area[:, None]).sum(axis=0) == pytest.approx([-0.01, 0, 0], abs=1e-12)
+    assert (found["slip"][:, :2] == state.v.reshape(2, 3).T).all() and (found["opening"][:, 0] == state.w + problem.gap).all()
+    assert list(found["state"][:, 0]) == list(cattaneo.settled_states(problem, state))
+    with pytest.raises(cattaneo.InputError, match="is not that of the half-spaces"):
+        space.write_vtu(file, cattaneo.load_reduced_problem(ROOT / "problems" / "hertz.json"), state)
 
 
 def test_what_is_refused():
@@ -131,6 +159,6 @@ def test_a_measured_surface(tmp_path):
     approaches = []
     for gap in gaps:
         problem = space.problem(gap)
-        state = cattaneo.march(problem, [{}, {"P": 0.19}], increments=1).state
+        state = cattaneo.march(problem, [{}, {"P": 0.19}], settings=ONE).state
         approaches.append(cattaneo.conjugates(problem, state)[problem.loads.index("P")])
     assert approaches[0] == pytest.approx(approaches[1], abs=2 * 0.05**2 / 8 / 10)

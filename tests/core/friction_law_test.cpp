@@ -624,7 +624,7 @@ TEST(FrictionLaw, HoldsInAllDirectionsWithTorsion)
       [&] {
          set_friction_law(problem, FrictionLaw{points({{1, 0.3}}), points({{1, 0.4}})});
       },
-      "with torsion slip has no sense");
+      "with two tangents slip has no sense");
 }
 
 // Random coupled nodes with torsion whose laws get steeper too, so that a piece's straight line

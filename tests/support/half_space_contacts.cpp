@@ -94,7 +94,8 @@ ShearedSpheres sheared_spheres(int cells_across)
                                         cells(cells_across + 4, edge, a + 1.5 * edge));
    ReducedProblem problem = contact.problem(contact.centres.rowwise().squaredNorm() / (2 * R));
    set_friction(problem, f);
-   const NamedLoads pressed{{"P", P}}, there{{"P", P}, {"Q1", Q}}, back{{"P", P}, {"Q1", -Q}};
+   const NamedLoads pressed{{"P", P}, {"Q1", 0}}, there{{"P", P}, {"Q1", Q}},
+      back{{"P", P}, {"Q1", -Q}};
    ContactState state = ContactState::virgin(problem);
    std::vector<NamedLoads> way{{}};
    const auto go = [&](const NamedLoads &loads)

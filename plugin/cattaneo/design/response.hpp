@@ -67,7 +67,7 @@ public:
    Response worn_depth(std::size_t from, std::size_t to, Eigen::Index node) const;
    /// Volume that all nodes lose, see the function worn_volume().
    Response worn_volume(std::size_t from, std::size_t to) const;
-   /// Displacements and nodal forces of a node; component: 0, with torsion also 1.
+   /// Displacements and nodal forces of a node; component: 0, with two tangents also 1.
    Response slip(std::size_t state, Eigen::Index node, int component = 0) const;
    /// w: without the gap.
    Response opening(std::size_t state, Eigen::Index node) const;

@@ -218,7 +218,8 @@ void check_law(const std::string &where, const FrictionLaw &law, Eigen::Index co
    }
    require(components < 2 ||
               (law.forward.rows() == law.backward.rows() && law.forward == law.backward),
-           where, " is another one forward than backward, but with torsion slip has no sense");
+           where,
+           " is another one forward than backward, but with two tangents slip has no sense");
 }
 
 void check_laws_of_friction(const ReducedProblem &problem)

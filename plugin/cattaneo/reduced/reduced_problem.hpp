@@ -57,9 +57,10 @@ struct FrictionLaw
     multiplier of load pattern k. Per unit thickness in the plane; forces over the full
     circumference in axisymmetry.
 
-    There are c tangential components a node: 1 in the plane, 2 with torsion (radial for all
-    nodes first, then circumferential), 0 when the problem was reduced without friction. Plain
-    data: it knows no mesh. */
+    There are c tangential components a node: 1 in the plane, 2 in three dimensions and with
+    torsion (first tangents of all nodes, then second ones; about an axis radial and
+    circumferential), 0 when the problem was reduced without friction. Plain data: it knows no
+    mesh. */
 struct ReducedProblem
 {
    /// The whole reduced stiffness [A Bᵀ; B C], (c+1)·n × (c+1)·n, symmetric.
@@ -180,8 +181,8 @@ void set_friction(ReducedProblem &problem, double coefficient);
     strength) of tractions, for slip forward and backward, from which those of nodal forces
     follow by the nodes' weights. A single point (1, f) is Coulomb's law. InputError without
     weights, for a node that does not exist, or if the law is none: its pressures do not grow
-    from above zero, a strength falls or is negative, or with torsion, where slip has no sense,
-    both differ. */
+    from above zero, a strength falls or is negative, or with two tangents, where slip has no
+    sense, both differ. */
 void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
                       const std::vector<Eigen::Index> &nodes = {});
 /// The same law whichever way the nodes slip.

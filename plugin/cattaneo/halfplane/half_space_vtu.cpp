@@ -1,0 +1,90 @@
+#include <cattaneo/friction/settled_states.hpp>
+#include <cattaneo/halfplane/half_space_vtu.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <sstream>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+
+namespace
+{
+
+/// An array of the file, one row a line.
+void add_array(std::ostringstream &out, const char *name, const char *type,
+               const Eigen::MatrixXd &values)
+{
+   out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+       << values.cols() << "\" format=\"ascii\">\n";
+   for (Index i = 0; i < values.rows(); ++i)
+   {
+      for (Index k = 0; k < values.cols(); ++k)
+      {
+         out << (k ? " " : "") << exact_text(values(i, k));
+      }
+      out << '\n';
+   }
+   out << "</DataArray>\n";
+}
+
+/// Two components along the surface as vectors in space.
+Eigen::MatrixX3d along_surface(const Eigen::VectorXd &components)
+{
+   const Index n = components.size() / 2;
+   Eigen::MatrixX3d vectors = Eigen::MatrixX3d::Zero(n, 3);
+   vectors.leftCols(2) = Eigen::Map<const Eigen::MatrixX2d>(components.data(), n, 2);
+   return vectors;
+}
+
+} // namespace
+
+void write_vtu(const std::string &file, const HalfSpace &contact, const ReducedProblem &problem,
+               const ContactState &state)
+{
+   contact.validate();
+   const Index n = contact.centres.rows();
+   require(problem.position.rows() == n && problem.position == contact.centres &&
+              problem.components() == 2,
+           "VTU file '", file, "': the reduced problem is not that of the half-spaces");
+   state.validate(problem);
+
+   // Corners run round each rectangle, which has its own ones.
+   Eigen::MatrixX3d corners = Eigen::MatrixX3d::Zero(4 * n, 3);
+   Eigen::MatrixXd own(n, 4), ends(n, 1), kinds(n, 1), states(n, 1);
+   const std::vector<NodeState> settled = settled_states(problem, state);
+   for (Index i = 0; i < n; ++i)
+   {
+      for (Index k = 0; k < 4; ++k)
+      {
+         const Eigen::Vector2d way(k == 1 || k == 2 ? 0.5 : -0.5, k > 1 ? 0.5 : -0.5);
+         corners.row(4 * i + k).head(2) =
+            contact.centres.row(i) + way.cwiseProduct(contact.size).transpose();
+         own(i, k) = static_cast<double>(4 * i + k);
+      }
+      ends(i, 0) = static_cast<double>(4 * (i + 1));
+      kinds(i, 0) = 9; // a quadrilateral
+      states(i, 0) = static_cast<double>(settled[static_cast<std::size_t>(i)]);
+   }
+   const double area = contact.size.prod();
+   std::ostringstream out;
+   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+          "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
+       << 4 * n << "\" NumberOfCells=\"" << n << "\">\n<Points>\n";
+   add_array(out, "Points", "Float64", corners);
+   out << "</Points>\n<Cells>\n";
+   add_array(out, "connectivity", "Int64", own);
+   add_array(out, "offsets", "Int64", ends);
+   add_array(out, "types", "UInt8", kinds);
+   out << "</Cells>\n<CellData>\n";
+   add_array(out, "pressure", "Float64", state.p / area);
+   add_array(out, "shear", "Float64", along_surface(state.q / area));
+   add_array(out, "slip", "Float64", along_surface(state.v));
+   add_array(out, "opening", "Float64", state.w + problem.gap);
+   add_array(out, "state", "Int8", states);
+   out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+   write_whole(file, out.str());
+}
+
+} // namespace cattaneo
