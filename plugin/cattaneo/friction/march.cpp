@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cattaneo/friction/advance.hpp>
-#include <cattaneo/friction/clearance.hpp>
+#include <cattaneo/friction/free_bodies.hpp>
 #include <cattaneo/friction/march_record.hpp>
 #include <cattaneo/friction/near_path.hpp>
 #include <cattaneo/input_error.hpp>
