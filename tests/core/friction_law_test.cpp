@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/free_bodies.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/wear/worn_out.hpp>

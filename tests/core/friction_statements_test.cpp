@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/free_bodies.hpp>
 #include <gtest/gtest.h>
 
 namespace

@@ -8,7 +8,7 @@
 #include "random_problem.hpp"
 
 #include <cattaneo/friction/friction_solver.hpp>
-#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/free_bodies.hpp>
 #include <gtest/gtest.h>
 
 namespace

@@ -3,7 +3,7 @@
 #include "contact_laws.hpp"
 
 #include <array>
-#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/free_bodies.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/friction/disc.hpp>
 #include <cattaneo/friction/methods.hpp>
 #include <set>
 
@@ -8,11 +9,7 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::VectorXd;
 
-namespace
-{
-
-/// Takes the states that the present displacements and forces ask for. @return how many changed
-Index update_states(Increment &at)
+Index ask_for_states(Increment &at)
 {
    // Violations that change nothing.
    const VectorXd tiny =
@@ -34,31 +31,6 @@ Index update_states(Increment &at)
    return changed;
 }
 
-/// In the disc the directions of slip change from step to step as well: done when the residual
-/// is small enough, given up when it has stopped falling.
-bool newton_in_the_disc(Increment &at)
-{
-   update_states(at); // finds the directions
-   double best = std::numeric_limits<double>::infinity();
-   int patience = 8;
-   for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
-   {
-      if (!solve_for_states(at)) { return false; }
-      const bool small = at.residuals();
-      if (update_states(at) == 0 && small) { return at.solved(); }
-      const double size = std::max(at.report.residual_normal, at.report.residual_tangential);
-      if (size < 0.5 * best)
-      {
-         best = size;
-         patience = 8;
-      }
-      else { --patience; }
-   }
-   return false;
-}
-
-} // namespace
-
 bool newton(Increment &at)
 {
    if (at.system.disc()) { return newton_in_the_disc(at); }
@@ -73,8 +45,8 @@ bool newton(Increment &at)
    {
       if (!visited.insert(at.status).second) { return false; } // it cycles
       if (!solve_for_states(at)) { return false; }
-      const Index changed = update_states(at);
-      if (changed == 0) { return at.solved(); }
+      const Index changed = ask_for_states(at);
+      if (changed == 0) { return ends_with_least_motion(at); }
       patience = changed < fewest || fewest > few ? enough : patience - 1;
       fewest = std::min(fewest, changed);
    }
@@ -87,12 +59,15 @@ bool polished(Increment &at)
    const std::vector<NodeState> status = at.status;
    if (newton(at)) { return true; }
    at.take(u, status);
-   return at.solved();
+   return ends_with_least_motion(at);
 }
 
 Search active_set(Increment &at)
 {
    const FrictionSettings &settings = at.system.settings;
+   // In the disc Newton's steps are as many from the state at the start as from a swept one.
+   if (at.system.disc() && newton(at)) { return Search::found; }
+   at.go_back();
    int sweeps = settings.sweeps;
    for (int k = 0; k < settings.max_attempts; ++k)
    {
@@ -101,7 +76,6 @@ Search active_set(Increment &at)
       at.u_swept = at.u;
       at.status_swept = at.status;
       if (newton(at)) { return Search::found; }
-      if (k == 1 && at.finds_mechanism()) { return Search::hopeless; }
       sweeps = std::max(4, 2 * sweeps);
    }
    return Search::not_here;

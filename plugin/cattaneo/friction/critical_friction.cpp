@@ -2,7 +2,7 @@
 #include <cattaneo/algebra/extreme_eigenvalues.hpp>
 #include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
-#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/free_bodies.hpp>
 #include <cmath>
 #include <limits>
 

@@ -113,7 +113,7 @@ bool find_end_on_pieces(Increment &at)
    if (s.laws.empty()) { return find_end(at, !s.brief); }
    VectorXd p = at.start.p;
    if (settles_on_pieces(at, p)) { return true; }
-   if (s.brief || at.finds_mechanism()) { return false; }
+   if (s.brief) { return false; }
    const VectorXd change = at.multipliers - at.start.multipliers;
    for (double reached = 0, step = 0.5; step > 0.01;)
    {
@@ -148,25 +148,18 @@ bool find_end_on_pieces(Increment &at)
 bool runs_away(Increment &at)
 {
    return at.report.round_off > may_hide_sliding &&
-          (at.finds_mechanism() || moves_away(at) || at.at_rest);
+          (moves_away(at) || at.springs->bear_nothing);
 }
 
-/// A frictionless contact whose tangential unknowns cost too many digits to be eliminated: a
-/// free body on a line that is nearly straight.
-IncrementReport solve_whole(FrictionSystem &system, ContactState &state,
-                            const VectorXd &multipliers)
+/// Free bodies on springs that bear nothing: what these hold stays where it is.
+bool rests(Increment &at)
 {
-   std::unique_ptr<FrictionSystem> &whole = system.slippery;
-   if (!whole)
-   {
-      whole = std::make_unique<FrictionSystem>(system.shared, system.settings, true);
-      system.counters += whole->counters;
-   }
-   const Counters before = whole->counters;
-   const IncrementReport report = whole->solve(state, multipliers);
-   system.counters += whole->counters;
-   system.counters -= before;
-   return report;
+   if (moves_away(at) || !at.springs->bear_nothing) { return false; }
+   const ContactState &held = *at.springs->state;
+   at.take(at.system.frictionless ? held.w : held.displacements(), held.status);
+   at.report = {};
+   at.report.found_by = "rest";
+   return ends_with_least_motion(at);
 }
 
 /// Names the cause why no end of the increment was found.
@@ -222,44 +215,18 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
 {
    Increment at(*this, state, multipliers);
    IncrementReport &report = at.report;
-   ContactState next;
-   const auto ends_here = [&]
-   {
-      next = at.end();
-      return obeys_laws(at.v_old, next, at.scale(), report);
-   };
-   bool solved = find_end_on_pieces(at);
-   if (solved && take_least_motion(at)) { at.residuals(); }
+   if (!laws.empty()) { take_pieces(state.p); }
+   // 1. Loads that no admissible contact forces balance: there is nothing to search for.
+   bool solved = !at.finds_mechanism();
+   // 2. The methods, one after the other.
+   solved = solved && find_end_on_pieces(at);
+   // 3. A body that slides away may look like an answer.
    solved = solved && !runs_away(at);
-   if (solved)
+   // 4. Free bodies that nothing moves. (Of a law that bends other pieces may prove now that
+   // there is no equilibrium.)
+   if (!solved && !at.mechanism.exists)
    {
-      // Displacements are rounded after they were found, and their forces are not quite those
-      // of the solution: once more, from there. (The disc forms its forces anew at each step.)
-      solved = ends_here();
-      if (!solved && !disc() && solve_for_states(at, true))
-      {
-         take_least_motion(at);
-         solved = ends_here();
-      }
-      if (report.round_off >= lost) { at.lost_in_round_off = report.round_off; }
-      // What is eliminated has moved far: it is not left to round-off.
-      if (tangential && report.round_off > may_hide_sliding) { solved = false; }
-   }
-   if (!solved && !at.mechanism.exists && !at.finds_mechanism())
-   {
-      if (tangential && !brief) { return solve_whole(*this, state, multipliers); }
-      if (!moves_away(at) && at.at_rest)
-      {
-         next = *at.rested;
-         if (!frictionless)
-         {
-            at.take(next.displacements(), next.status);
-            if (take_least_motion(at)) { next = at.end(); }
-         }
-         report = {};
-         report.found_by = "rest";
-         solved = obeys_laws(at.v_old, next, at.scale(), report);
-      }
+      solved = (laws.empty() || !at.finds_mechanism()) && rests(at);
    }
    if (!solved)
    {
@@ -267,8 +234,8 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
       explain_failure(at);
       return report;
    }
-   if (!frictionless) { at.name_states(next); }
-   state = std::move(next);
+   if (!frictionless) { at.name_states(at.next); }
+   state = std::move(at.next);
    const IncrementReport unique = uniqueness(state);
    report.status = unique.status;
    report.message = unique.message;
@@ -324,9 +291,7 @@ void FrictionSolver::set_gap(const VectorXd &gap)
       system_->counters += before;
    }
    own_->gap = gap;
-   // These have copies of the problem.
-   system_->smooth.reset();
-   system_->slippery.reset();
+   system_->smooth.reset(); // it has a copy of the problem
 }
 bool FrictionSolver::frictionless() const
 {

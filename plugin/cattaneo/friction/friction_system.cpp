@@ -29,10 +29,9 @@ VectorXd node_lengths(const ReducedProblem &problem)
 }
 
 FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
-                               const FrictionSettings &chosen, bool tangential_unknowns)
+                               const FrictionSettings &chosen)
    : shared(std::move(given)), problem(valid(*shared)), settings(chosen), n(problem.nodes()),
-     frictionless(problem.components() == 0 ||
-                  (problem.friction.maxCoeff() == 0 && !tangential_unknowns)),
+     frictionless(problem.components() == 0 || problem.friction.maxCoeff() == 0),
      K(frictionless ? normal : problem.K)
 {
    settings.validate();
@@ -127,7 +126,7 @@ bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next,
    const VectorXd forces = clamped + (*times_whole_K)(all);
    const VectorXd rows =
       (tangential ? whole_arithmetic : arithmetic)->rows(all.cwiseAbs(), clamped);
-   report.round_off = std::max(report.round_off, rows.maxCoeff() / scale);
+   report.round_off = rows.maxCoeff() / scale;
    if (!(report.round_off < lost)) { return false; }
    const LawCheck check =
       check_laws(problem, v_old, next, forces, settings.tolerance * scale, rows, slip_error);

@@ -39,7 +39,7 @@ void sweep(Increment &at)
       for (Index k = 0; k < s.c; ++k)
       {
          const Index row = s.t(i, k);
-         move(at, row, slip[k], found.slip[k], at.v_old[row] + found.slip[k]);
+         move(at, row, slip[k], found.slip[k], at.start.v[row] + found.slip[k]);
       }
       move(at, s.m(i), gap, found.gap, found.gap - s.problem.gap[i]);
       at.status[i] = found.state;
@@ -53,11 +53,8 @@ Search gauss_seidel(Increment &at)
       sweep(at);
       // The forces are updated by columns; now and then they are formed anew, against drift.
       if (k % 64 == 63) { at.F = at.f + (*at.system.times_K)(at.u); }
-      if (k == 63 && at.finds_mechanism()) { return Search::hopeless; }
       if (!at.u.allFinite()) { break; }
-      if (!at.residuals()) { continue; }
-      at.F = at.f + (*at.system.times_K)(at.u);
-      if (at.residuals()) { return at.solved() ? Search::found : Search::not_here; }
+      if (at.residuals() && at.ends_here()) { return Search::found; }
    }
    return Search::not_here;
 }

@@ -9,7 +9,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorXd &loads)
-   : system(s), start(state), multipliers(loads), v_old(state.v), status(state.status),
+   : system(s), start(state), multipliers(loads), status(state.status),
      direction(s.disc() ? s.n : 0)
 {
    const VectorXd clamped = s.problem.clamped_forces(multipliers);
@@ -114,7 +114,7 @@ ContactState Increment::end() const
       {
          if (!closed(status[i])) { continue; }
          next.status[i] = s.problem.components() == 2 ? NodeState::slip
-                          : next.v[i] >= v_old[i]     ? NodeState::forward_slip
+                          : next.v[i] >= start.v[i]   ? NodeState::forward_slip
                                                       : NodeState::backward_slip;
       }
    }
@@ -131,7 +131,7 @@ ContactState Increment::end() const
 void Increment::name_states(ContactState &next) const
 {
    const double allowed = system.settings.tolerance * scale();
-   const VectorXd slips = next.v - v_old;
+   const VectorXd slips = next.v - start.v;
    for (Index i = 0; i < system.n; ++i)
    {
       ContactNode at = node(i);
@@ -177,12 +177,16 @@ bool Increment::residuals()
    return small;
 }
 
-bool Increment::solved()
+bool Increment::ends_here()
 {
-   if (!residuals()) { return false; }
-   if (report.round_off < lost) { return true; }
-   if (report.round_off < 0.1) { lost_in_round_off = report.round_off; }
-   return false;
+   next = end();
+   const bool obeyed = system.obeys_laws(start.v, next, scale(), report);
+   // A solution that moves so far that its forces cannot be told from round-off.
+   if (report.round_off >= lost && report.round_off < 0.1)
+   {
+      lost_in_round_off = report.round_off;
+   }
+   return obeyed;
 }
 
 bool Increment::finds_mechanism()

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cattaneo/friction/advance.hpp>
-#include <cattaneo/friction/clearance.hpp>
+#include <cattaneo/friction/free_bodies.hpp>
 #include <cattaneo/friction/march_run.hpp>
 #include <cmath>
 

@@ -17,7 +17,7 @@ Search path(Increment &at)
    forces.tail(n) = at.start.p;
    if (!s.frictionless)
    {
-      stuck.head(n) = at.v_old;
+      stuck.head(n) = at.start.v;
       forces.head(n) = at.start.q;
    }
    ComplementarityProblem increment;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/round_off.hpp>
 #include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/algebra/symmetric_product.hpp>
 #include <cattaneo/friction/contact_law.hpp>
+#include <cattaneo/friction/disc.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/state_equations.hpp>
 #include <memory>
@@ -27,22 +27,7 @@ struct FrictionSystem
    using MatrixXd = Eigen::MatrixXd;
    using VectorXd = Eigen::VectorXd;
 
-   /// Stiffness of the closed nodes when the open ones are free, kept for as long as these are
-   /// the same.
-   struct EliminatedNodes
-   {
-      std::vector<signed char> key;
-      std::vector<Index> open, kept; // rows of K: all components of the open, closed nodes
-      std::vector<Index> place;      // of a closed node's first component among `kept`
-      DenseCholesky factor;          // L Lᵀ of the open ones
-      MatrixXd X;                    // L⁻¹ K(open, kept)
-      MatrixXd K;                    // K(kept, kept) - Xᵀ X
-      bool singular = false;
-   };
-
-   /// `tangential_unknowns`: also without friction.
-   FrictionSystem(std::shared_ptr<const ReducedProblem> given, const FrictionSettings &chosen,
-                  bool tangential_unknowns = false);
+   FrictionSystem(std::shared_ptr<const ReducedProblem> given, const FrictionSettings &chosen);
    FrictionSystem(const FrictionSystem &) = delete;
 
    const std::shared_ptr<const ReducedProblem> shared; ///< with others who solve it
@@ -70,10 +55,9 @@ struct FrictionSystem
 
    // Equations of the states: all at once, or the gaps and then the slip (B = 0).
    std::unique_ptr<StateEquations> coupled_equations, normal_equations, tangential_equations;
-   EliminatedNodes eliminated;
-   std::unique_ptr<FrictionSolver> smooth;   // disc: the contact without friction, when asked
-   std::unique_ptr<FrictionSystem> slippery; // see solve_whole()
-   bool brief = false;                       // give up where sweeps, active set and path fail
+   DiscEquations disc_equations;           // disc
+   std::unique_ptr<FrictionSolver> smooth; // disc: the contact without friction, when asked
+   bool brief = false;                     // give up where sweeps, active set and path fail
 
    bool disc() const { return c == 2; }                      // friction force in the disc
    Index t(Index i, Index k = 0) const { return k * n + i; } // row of a tangential entry

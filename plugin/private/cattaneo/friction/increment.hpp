@@ -1,11 +1,19 @@
 #pragma once
 
+#include <cattaneo/friction/free_bodies.hpp>
 #include <cattaneo/friction/friction_system.hpp>
-#include <cattaneo/friction/mechanism.hpp>
 #include <optional>
 
 namespace cattaneo
 {
+
+/// What weak springs on the rigid motions of free bodies came to.
+struct HeldBySprings
+{
+   Mechanism away; ///< a motion that no spring stops, or that friction hides from them
+   std::optional<ContactState> state; ///< with the weakest spring that held
+   bool bear_nothing = false;         ///< that spring bears nothing: the state is an answer
+};
 
 /// One increment: where it starts, where it stands, and what was found out about it.
 struct Increment
@@ -20,7 +28,6 @@ struct Increment
    const ContactState &start;
    const VectorXd &multipliers;
 
-   VectorXd v_old;
    VectorXd f;    // forces with v = w = 0 at the new loads
    VectorXd u, F; // displacements {v; w} and forces {q; p} (frictionless: w, p)
    std::vector<NodeState> status;
@@ -31,17 +38,16 @@ struct Increment
    std::vector<NodeState> status_swept;
 
    IncrementReport report;
+   ContactState next; // the end that ends_here() judged last
    Mechanism mechanism;
-   std::optional<Mechanism> away;      // what moves_away() found, if asked
-   std::optional<ContactState> rested; // what the weakest spring holds, if not away
-   bool at_rest = false;               // it bears nothing
-   double lost_in_round_off = 0;       // round-off of a solution that moves too far; 0: none
+   std::optional<HeldBySprings> springs; // if asked, see moves_away()
+   double lost_in_round_off = 0;         // round-off of a solution that moves too far; 0: none
 
    double scale() const { return reference > 0 ? reference : 1.0; }
    double gap(Index i) const { return u[system.m(i)] + system.problem.gap[i]; }
    /// The tangential entries of node i.
    NodeVector along(const VectorXd &x, Index i) const;
-   NodeVector slip(Index i) const { return along(u, i) - along(v_old, i); }
+   NodeVector slip(Index i) const { return along(u, i) - along(start.v, i); }
    ContactNode node(Index i) const;
    /// Of each row of F, see RoundOff.
    VectorXd round_off() const { return system.arithmetic->rows(u.cwiseAbs(), f); }
@@ -55,11 +61,12 @@ struct Increment
    ContactState end() const;
    /// Gives the nodes of an accepted end states that fit how they slip and what they bear.
    void name_states(ContactState &next) const;
-   /// Fills the report with the residuals of where it stands. False if one is too large.
+   /// Is the state where it stands the end of the increment? By the equations and the laws as
+   /// they are given (FrictionSystem::obeys_laws()), which is the only judgement of a state.
+   bool ends_here();
+   /// Fills the report with what the natural map leaves where it stands: a measure of the way
+   /// that is left. True if that may be small enough for ends_here(), which asks for more.
    bool residuals();
-   /// residuals() of a solution: false too where it moves so far that its forces cannot be told
-   /// from round-off, which is remembered.
-   bool solved();
    /// True if no admissible contact forces can balance the loads: there is nothing to search
    /// for.
    bool finds_mechanism();

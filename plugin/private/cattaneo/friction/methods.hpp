@@ -24,6 +24,9 @@ Search gauss_seidel(Increment &at);
 Search active_set(Increment &at);
 /// From the present states alone.
 bool newton(Increment &at);
+/// Takes the states that the present displacements and forces ask for, in the disc with the
+/// directions of slip. @return how many nodes changed theirs
+Eigen::Index ask_for_states(Increment &at);
 /// newton() from a point that may be an answer itself, but for round-off.
 bool polished(Increment &at);
 
@@ -38,18 +41,17 @@ bool moves_away(Increment &at);
 /// Newton's method on the natural map with a line search, from several starts.
 Search damped_newton(Increment &at);
 
-/// A body that slips wherever it touches could slip on as it is, with the same forces: it has
-/// moved the least, by the length of the contact, that its states ask for, as where the last
-/// node that stuck let go. False if no body can (friction in the disc: not asked).
-bool take_least_motion(Increment &at);
-
-/// Rigid motions of bodies that touch, which no node that sticks or bears resists.
-Eigen::MatrixXd free_motions(const ReducedProblem &problem,
-                             const std::vector<NodeState> &states);
+/// Is it the end of the increment where it stands? A body that slips wherever it touches could
+/// slip on as it is, with the same forces: it is moved before to where it has moved the least.
+bool ends_with_least_motion(Increment &at);
 
 /// Moves to the solution of the linear equations of the present states. False if they are
-/// singular. `from_here`: once more from the present displacements, for round-off that is left
-/// of them.
-bool solve_for_states(Increment &at, bool from_here = false);
+/// singular.
+bool solve_for_states(Increment &at);
+/// The same of the gaps alone, without friction or where slip does not change the pressure.
+bool solve_normal(Increment &at);
+/// True if displacements are much smaller than those that they were counted from: the round-off
+/// of these is then a large part of them. By the nodes' own stiffness, K: its diagonal.
+bool cancels(const Eigen::VectorXd &K, const Eigen::VectorXd &from, const Eigen::VectorXd &u);
 
 } // namespace cattaneo

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cattaneo/friction/contact_law.hpp>
+#include <optional>
 
 namespace cattaneo
 {
+
+// Bodies that no support holds: they have rigid motions, and contact alone keeps them where
+// they are. All of this is asked only where a problem has rigid motions.
 
 /// A rigid motion along which the loads do work that no admissible contact forces can balance.
 struct Mechanism
@@ -45,5 +49,23 @@ Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<Fricti
 Mechanism find_spinning(const ReducedProblem &problem,
                         const Eigen::VectorXd &frictionless_pressure,
                         const Eigen::VectorXd &clamped_forces, double negligible = 0);
+
+/// Rigid motions of bodies that touch, which no node that sticks or bears resists.
+Eigen::MatrixXd free_motions(const ReducedProblem &problem,
+                             const std::vector<NodeState> &states);
+
+/** Where bodies that nothing holds and that touch nothing come to rest as soon as the given
+    clamped forces {q; p} begin to push them: the relative displacement {v; w}. As rigid bodies
+    and without friction, which there is none of before anything presses, they go on until their
+    contacts bear these forces; of several such places to the nearest one,
+
+        min |c - t d|,  W c + g >= 0,
+
+    with d the forces along the free motions c, W the normal rows of these and t large: for all
+    t from some one on that is the nearest solution of the linear programme max dᵀc (Mangasarian
+    1979). Motions that a touching node would see are left to friction. None if nothing is
+    pushed, or if no contact stops it. */
+std::optional<Eigen::VectorXd> taken_up_clearance(const ReducedProblem &problem,
+                                                  const Eigen::VectorXd &clamped_forces);
 
 } // namespace cattaneo

@@ -1,0 +1,368 @@
+// Contact with two tangential components a node.
+
+#include <algorithm>
+#include <cattaneo/friction/disc.hpp>
+#include <cattaneo/friction/methods.hpp>
+#include <limits>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+void DiscEquations::begin()
+{
+   origin_ = {};
+   factored_.clear();
+}
+
+/// The open nodes, where all forces are zero, leave a stiffness of the closed ones.
+bool DiscEquations::eliminate_open(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   std::vector<signed char> is_open(s.n);
+   for (Index i = 0; i < s.n; ++i) { is_open[i] = closed(at.status[i]) ? 0 : 1; }
+   if (is_open_ == is_open) { return !singular_; }
+   is_open_ = is_open;
+   origin_ = {};
+   factored_.clear();
+   slipping_.clear();
+   open_.clear();
+   closed_.clear();
+   place_.assign(s.n, 0);
+   // B = 0: the gaps are found apart from the rest, and slip does not change the pressure.
+   const Index components = s.problem.coupled ? 3 : 2;
+   for (Index k = 0; k < components; ++k)
+   {
+      for (Index i = 0; i < s.n; ++i)
+      {
+         auto &rows = is_open[i] ? open_ : closed_;
+         if (k == 0 && !is_open[i]) { place_[i] = static_cast<Index>(rows.size()); }
+         rows.push_back(s.t(i, k));
+      }
+   }
+   closed_nodes_ = static_cast<Index>(closed_.size()) / components;
+   ++s.counters.dense_factorisations;
+   K_ = s.K(closed_, closed_);
+   singular_ = !open_.empty() && !open_factor_.compute(s.K(open_, open_));
+   if (singular_ || open_.empty()) { return !singular_; }
+   X_ = s.K(open_, closed_);
+   open_factor_.solve_half(X_);
+   K_ = minus_square(std::move(K_), X_);
+   return true;
+}
+
+/// The nodes that slip, and what their slips do to each other's forces: {q; p} by {x}.
+void DiscEquations::gather(const Increment &at)
+{
+   std::vector<Index> slipping;
+   for (Index i = 0; i < at.system.n; ++i)
+   {
+      if (slips(at.status[i])) { slipping.push_back(i); }
+   }
+   if (slipping == slipping_) { return; }
+   slipping_ = slipping;
+   const auto count = static_cast<Index>(slipping.size());
+   std::vector<Index> rows;
+   for (Index k = 0; k < (at.system.problem.coupled ? 3 : 2); ++k)
+   {
+      for (const Index i : slipping) { rows.push_back(place_[i] + k * closed_nodes_); }
+   }
+   const std::vector<Index> columns(rows.begin(), rows.begin() + 2 * count);
+   of_slip_ = K_(rows, columns);
+}
+
+/// Forces of the closed nodes where all nodes are at u, and the open ones go where they bear
+/// nothing.
+DiscEquations::Origin DiscEquations::origin_at(const Increment &at, const VectorXd &u) const
+{
+   const VectorXd forces = at.f + (*at.system.times_K)(u);
+   Origin origin{u, forces(closed_), {}};
+   if (!open_.empty())
+   {
+      origin.lift = forces(open_);
+      open_factor_.solve_half(origin.lift);
+      origin.forces -= X_.transpose() * origin.lift;
+   }
+   return origin;
+}
+
+DiscEquations::Linearised DiscEquations::linearise(const Increment &at) const
+{
+   const auto count = static_cast<Index>(slipping_.size());
+   const FrictionSystem &s = at.system;
+   Linearised to{Eigen::Matrix2Xd(2, count), Eigen::Matrix2Xd(2, count),
+                 Eigen::Matrix2Xd(2, count), VectorXd(count)};
+   for (Index r = 0; r < count; ++r)
+   {
+      const Index i = slipping_[r];
+      const DiscSlip &slip = at.direction[i];
+      to.along.col(r) = slip.n;
+      to.across.col(r) = (1 - slip.share) * slip.t();
+      to.own.col(r) = slip.share * s.ktt[i] * slip.t();
+      to.slope[r] = s.problem.coupled ? s.bound[i].slope(at.F[s.m(i)]) : 0.0;
+   }
+   return to;
+}
+
+/// What the equations of the slipping nodes are off by at an origin: n·q - f p, then
+/// (1 - β) t·q + β k t·x.
+VectorXd DiscEquations::imbalance(const Increment &at, const Origin &from) const
+{
+   const FrictionSystem &s = at.system;
+   const auto count = static_cast<Index>(slipping_.size());
+   VectorXd off(2 * count);
+   for (Index r = 0; r < count; ++r)
+   {
+      const Index i = slipping_[r], k = place_[i];
+      const DiscSlip &to = at.direction[i];
+      const Vector2d q(from.forces[k], from.forces[k + closed_nodes_]);
+      const Vector2d slip = at.along(from.u, i) - at.along(at.start.v, i);
+      // B = 0: slip does not change the pressure, which is known.
+      const double p = s.problem.coupled ? from.forces[k + 2 * closed_nodes_] : at.F[s.m(i)];
+      off[r] = to.n.dot(q) - s.bound[i].line(p);
+      off[count + r] = (1 - to.share) * to.t().dot(q) + to.share * s.ktt[i] * to.t().dot(slip);
+   }
+   return off;
+}
+
+/// The matrix of the equations times x.
+VectorXd DiscEquations::times(const Linearised &to, const VectorXd &x) const
+{
+   const auto count = static_cast<Index>(slipping_.size());
+   const VectorXd q = of_slip_ * x;
+   const auto first = q.head(count).array(), second = q.segment(count, count).array();
+   VectorXd y(2 * count);
+   y.head(count) = to.along.row(0).transpose().array() * first +
+                   to.along.row(1).transpose().array() * second;
+   if (q.size() > 2 * count) { y.head(count) -= to.slope.cwiseProduct(q.tail(count)); }
+   y.tail(count) = to.across.row(0).transpose().array() * first +
+                   to.across.row(1).transpose().array() * second +
+                   to.own.row(0).transpose().array() * x.head(count).array() +
+                   to.own.row(1).transpose().array() * x.tail(count).array();
+   return y;
+}
+
+bool DiscEquations::factor(const Linearised &to)
+{
+   const auto count = static_cast<Index>(slipping_.size());
+   const VectorXd along0 = to.along.row(0), along1 = to.along.row(1),
+                  across0 = to.across.row(0), across1 = to.across.row(1);
+   MatrixXd M(2 * count, 2 * count);
+   for (Index column = 0; column < 2 * count; ++column)
+   {
+      const auto q = of_slip_.col(column);
+      const auto first = q.head(count), second = q.segment(count, count);
+      M.col(column).head(count) = along0.cwiseProduct(first) + along1.cwiseProduct(second);
+      M.col(column).tail(count) = across0.cwiseProduct(first) + across1.cwiseProduct(second);
+      if (q.size() > 2 * count)
+      {
+         M.col(column).head(count) -= to.slope.cwiseProduct(q.tail(count));
+      }
+   }
+   M.bottomLeftCorner(count, count).diagonal() += to.own.row(0).transpose();
+   M.bottomRightCorner(count, count).diagonal() += to.own.row(1).transpose();
+   factored_ = slipping_;
+   return factor_.compute(std::move(M));
+}
+
+/// Solves with the factor of an earlier step, in which some of the nodes may not have slipped:
+/// these have their own two equations, and those that slip no longer do not move.
+VectorXd DiscEquations::with_factor(const Linearised &to, const VectorXd &r) const
+{
+   const auto count = static_cast<Index>(slipping_.size()),
+              known = static_cast<Index>(factored_.size());
+   if (factored_ == slipping_)
+   {
+      VectorXd x = r;
+      factor_.solve(x);
+      return x;
+   }
+   VectorXd of_factor = VectorXd::Zero(2 * known), x(2 * count);
+   std::vector<Index> slot(count, -1);
+   for (Index k = 0; k < count; ++k)
+   {
+      const auto found = std::lower_bound(factored_.begin(), factored_.end(), slipping_[k]);
+      if (found == factored_.end() || *found != slipping_[k]) { continue; }
+      slot[k] = found - factored_.begin();
+      of_factor[slot[k]] = r[k];
+      of_factor[known + slot[k]] = r[count + k];
+   }
+   factor_.solve(of_factor);
+   for (Index k = 0; k < count; ++k)
+   {
+      if (slot[k] >= 0)
+      {
+         x[k] = of_factor[slot[k]];
+         x[count + k] = of_factor[known + slot[k]];
+         continue;
+      }
+      Eigen::Matrix2d own;
+      for (const Index c : {0, 1})
+      {
+         const auto q = of_slip_.col(c * count + k);
+         const Vector2d force(q[k], q[count + k]);
+         own(0, c) = to.along.col(k).dot(force) -
+                     (q.size() > 2 * count ? to.slope[k] * q[2 * count + k] : 0.0);
+         own(1, c) = to.across.col(k).dot(force) + to.own(c, k);
+      }
+      const double det = own.determinant();
+      const Vector2d b(r[k], r[count + k]);
+      x[k] = (own(1, 1) * b[0] - own(0, 1) * b[1]) / det;
+      x[count + k] = (own(0, 0) * b[1] - own(1, 0) * b[0]) / det;
+   }
+   return x;
+}
+
+/// GMRES with the factor of an earlier step. False if that does not end soon.
+bool DiscEquations::iterate(const Linearised &to, const VectorXd &r, VectorXd &x) const
+{
+   // As far as Newton's steps are right themselves: the next one sees what is left.
+   constexpr double enough = 1e-6;
+   // A step of the iteration reads two matrices, which a factor does a hundred times.
+   constexpr int most = 16;
+   const double size = r.norm();
+   if (size == 0)
+   {
+      x = r;
+      return true;
+   }
+   MatrixXd V(r.size(), most + 1), Z(r.size(), most), H = MatrixXd::Zero(most + 1, most);
+   VectorXd g = VectorXd::Unit(most + 1, 0) * size;
+   std::vector<Eigen::JacobiRotation<double>> turned;
+   V.col(0) = r / size;
+   for (int k = 0; k < most; ++k)
+   {
+      // 1. One more direction, made orthogonal to all before.
+      Z.col(k) = with_factor(to, V.col(k));
+      VectorXd w = times(to, Z.col(k));
+      if (!w.allFinite()) { return false; }
+      H.col(k).head(k + 1) = V.leftCols(k + 1).transpose() * w;
+      w -= V.leftCols(k + 1) * H.col(k).head(k + 1);
+      H(k + 1, k) = w.norm();
+      if (H(k + 1, k) > 0) { V.col(k + 1) = w / H(k + 1, k); }
+      // 2. Rotations keep the small least squares triangular.
+      for (int j = 0; j < k; ++j) { H.col(k).applyOnTheLeft(j, j + 1, turned[j].adjoint()); }
+      Eigen::JacobiRotation<double> turn;
+      turn.makeGivens(H(k, k), H(k + 1, k));
+      turned.push_back(turn);
+      H.col(k).applyOnTheLeft(k, k + 1, turn.adjoint());
+      g.applyOnTheLeft(k, k + 1, turn.adjoint());
+      // 3. What they leave is the residual.
+      if (std::abs(g[k + 1]) > enough * size) { continue; }
+      if (H(k, k) == 0) { return false; }
+      const VectorXd y =
+         H.topLeftCorner(k + 1, k + 1).triangularView<Eigen::Upper>().solve(g.head(k + 1));
+      x = Z.leftCols(k + 1) * y;
+      return true;
+   }
+   return false;
+}
+
+/// Solves the equations for x, from a first guess there, with the right-hand side b.
+bool DiscEquations::solve_slip(Increment &at, const Linearised &equations, const VectorXd &b,
+                               VectorXd &x)
+{
+   // Few equations are factored in no time.
+   constexpr Index few = 64;
+   if (x.size() == 0) { return true; }
+   if (x.size() > few && !factored_.empty())
+   {
+      VectorXd change;
+      if (iterate(equations, b - times(equations, x), change))
+      {
+         x += change;
+         return true;
+      }
+   }
+   ++at.system.counters.dense_factorisations;
+   if (!factor(equations))
+   {
+      factored_.clear();
+      return false;
+   }
+   x = b;
+   factor_.solve(x);
+   return true;
+}
+
+bool DiscEquations::solve(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   // 1. Without coupling the gaps and pressures are known first.
+   if (!s.problem.coupled && !solve_normal(at)) { return false; }
+   // 2. The open nodes go.
+   if (!eliminate_open(at)) { return false; }
+   gather(at);
+   // 3. Displacements are counted from no slip and closed gaps, where the nodes are for as long
+   // as the same ones are open.
+   if (origin_.u.size() == 0)
+   {
+      VectorXd u = at.u;
+      for (Index i = 0; i < s.n; ++i)
+      {
+         for (Index k = 0; k < 2; ++k) { u[s.t(i, k)] = at.start.v[s.t(i, k)]; }
+         if (s.problem.coupled) { u[s.m(i)] = closed(at.status[i]) ? -s.problem.gap[i] : 0.0; }
+      }
+      origin_ = origin_at(at, u);
+   }
+   const Linearised equations = linearise(at);
+   const auto count = static_cast<Index>(slipping_.size());
+   for (bool again = false;; again = true)
+   {
+      // 4. The slip that the equations ask for …
+      const Origin from = again ? origin_at(at, at.u) : origin_;
+      VectorXd x(2 * count);
+      for (Index r = 0; r < 2 * count; ++r)
+      {
+         const Index row = s.t(slipping_[r % count], r / count);
+         x[r] = from.u[row] - at.u[row];
+      }
+      if (!solve_slip(at, equations, imbalance(at, from), x)) { return false; }
+      at.u = from.u;
+      MatrixXd lift = from.lift;
+      for (Index r = 0; r < 2 * count; ++r)
+      {
+         const Index k = r / count, i = slipping_[r % count];
+         at.u[s.t(i, k)] -= x[r];
+         if (!open_.empty()) { lift -= x[r] * X_.col(place_[i] + k * closed_nodes_); }
+      }
+      // 5. … and where the open nodes go with it.
+      if (!open_.empty())
+      {
+         open_factor_.solve_other_half(lift);
+         at.u(open_) -= lift;
+      }
+      // 6. Once more from there where the round-off of the origin is a large part of it.
+      if (again || !cancels(s.K.diagonal(), from.u, at.u)) { break; }
+   }
+   at.F = at.f + (*s.times_K)(at.u);
+   return true;
+}
+
+bool newton_in_the_disc(Increment &at)
+{
+   at.system.disc_equations.begin();
+   ask_for_states(at); // finds the directions
+   double best = std::numeric_limits<double>::infinity();
+   int patience = 8;
+   for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
+   {
+      if (!solve_for_states(at)) { return false; }
+      const bool small = at.residuals();
+      if (ask_for_states(at) == 0 && small && at.ends_here()) { return true; }
+      const double size = std::max(at.report.residual_normal, at.report.residual_tangential);
+      if (size < 0.5 * best)
+      {
+         best = size;
+         patience = 8;
+      }
+      else { --patience; }
+   }
+   return false;
+}
+
+} // namespace cattaneo
