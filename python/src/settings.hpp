@@ -112,35 +112,40 @@ struct Kind<FitWindow>
    }
 };
 
-/// What all classes of settings do with the members that they have.
+/// A member of settings that are somewhere in memory.
+struct SettingsMember
+{
+   std::string name, kind, doc;
+   std::function<nb::object(void *settings, nb::handle owner)> get;
+   /// TypeError or InputError for what it cannot be, which is then not taken.
+   std::function<void(void *settings, nb::handle value)> set;
+   std::string value = ""; ///< of the defaults, as it is written
+};
+
+/// A class of settings by its members: compiled once for all of them.
 class SettingsClass
 {
 public:
-   using Setter = std::function<void(void *settings, nb::handle value)>;
+   SettingsClass(nb::handle type, std::vector<SettingsMember> members, void *defaults);
 
-   SettingsClass(std::string name) : name_(std::move(name)) {}
-   void add(std::string member, std::string kind, nb::handle value, Setter setter);
    /// TypeError for a name that no member has.
-   void set(void *settings, nb::kwargs values) const;
-   /// AttributeError for such a name.
-   void require_member(const std::string &name) const;
-   nb::dict values(nb::handle settings) const;
-   /// Members that differ from the defaults, as they are given to the class.
-   std::string text(nb::handle settings) const;
+   void set(void *settings, const nb::dict &values) const;
+   /// Attributes, those that are misspelt, printing and pickling; all but how one is made.
+   void define(const std::shared_ptr<const SettingsClass> &self) const;
    /// Of its constructor.
    std::string signature() const;
-   const std::string &name() const { return name_; }
 
 private:
-   struct Member
-   {
-      std::string name, kind, value;
-      Setter set;
-   };
    std::string unknown(const std::string &name) const;
+   const SettingsMember *find(const std::string &name) const;
+   /// TypeError unless they are settings of this class.
+   void *settings(nb::handle self) const;
+   nb::dict values(nb::handle self) const;
+   std::string text(nb::handle self) const;
 
+   nb::handle type_;
    std::string name_;
-   std::vector<Member> members_;
+   std::vector<SettingsMember> members_;
 };
 
 template <class T>
@@ -148,68 +153,48 @@ class Settings
 {
 public:
    Settings(nb::module_ &m, const char *name, const char *doc)
-      : class_(m, name, doc), all_(std::make_shared<SettingsClass>(name))
+      : class_(m, name, doc), name_(name)
    {
    }
 
    template <class Value>
    Settings &member(const char *name, Value T::*member, const char *doc)
    {
-      const std::string what = all_->name() + "." + name, kind = Kind<Value>::name(),
-                        needed = Kind<Value>::needed();
-      // Changes a copy, which is checked before it is taken.
-      const auto set = [member, what, needed](T &settings, nb::handle value)
+      const auto get = [member](void *settings, nb::handle owner)
+      { return Kind<Value>::get(static_cast<T *>(settings)->*member, owner); };
+      const auto set = [member, what = name_ + "." + name](void *settings, nb::handle value)
       {
-         T changed = settings;
-         if (!Kind<Value>::set(value, changed.*member, what)) { refuse(value, what, needed); }
+         // Changes a copy, which is checked before it is taken.
+         T changed = *static_cast<T *>(settings);
+         if (!Kind<Value>::set(value, changed.*member, what))
+         {
+            refuse(value, what, Kind<Value>::needed());
+         }
          check(changed, 0);
-         settings = std::move(changed);
+         *static_cast<T *>(settings) = std::move(changed);
       };
-      const auto get = [member](T &settings)
-      { return Kind<Value>::get(settings.*member, nb::find(settings)); };
-      const std::string getter = std::string("def ") + name + "(self) -> " + kind,
-                        setter = std::string("def ") + name + "(self, value: " + kind +
-                                 ", /) -> None";
-      class_.def_prop_rw(
-         name, get, [set](T &settings, nb::object value) { set(settings, value); },
-         nb::for_getter(nb::sig(getter.c_str())), nb::for_setter(nb::sig(setter.c_str())),
-         nb::for_setter(arg("value").none()), doc);
-      T defaults;
-      all_->add(name, kind, Kind<Value>::get(defaults.*member, nb::handle()),
-                [set](void *settings, nb::handle value)
-                { set(*static_cast<T *>(settings), value); });
+      members_.push_back({name, Kind<Value>::name(), doc, get, set});
       return *this;
    }
 
    /// After all members.
    void done()
    {
-      const auto made = [all = all_](T *self, nb::kwargs values)
+      T defaults;
+      const auto all = std::make_shared<const SettingsClass>(class_, members_, &defaults);
+      all->define(all);
+      const auto made = [all](T *self, const nb::dict &values)
       {
          T settings;
          all->set(&settings, values);
          new (self) T(std::move(settings));
       };
-      const std::string signature = all_->signature();
-      class_.def("__init__", made, nb::sig(signature.c_str()))
+      const std::string signature = all->signature();
+      class_
          .def(
-            "__setattr__",
-            [all = all_](nb::handle_t<T> self, const std::string &name, nb::object value)
-            {
-               all->require_member(name);
-               const nb::object key = nb::cast(name);
-               if (PyObject_GenericSetAttr(self.ptr(), key.ptr(), value.ptr()) != 0)
-               {
-                  throw nb::python_error();
-               }
-            },
-            arg("name"), arg("value").none())
-         .def("__getattr__", [all = all_](nb::handle_t<T>, const std::string &name)
-              { all->require_member(name); })
-         .def("__repr__", [all = all_](nb::handle_t<T> self) { return all->text(self); })
-         .def("__getstate__", [all = all_](nb::handle_t<T> self) { return all->values(self); })
-         .def("__setstate__",
-              [made](T *self, nb::dict values) { made(self, nb::borrow<nb::kwargs>(values)); });
+            "__init__", [made](T *self, nb::kwargs values) { made(self, values); },
+            nb::sig(signature.c_str()))
+         .def("__setstate__", made);
    }
 
 private:
@@ -225,7 +210,8 @@ private:
    }
 
    nb::class_<T> class_;
-   std::shared_ptr<SettingsClass> all_;
+   std::string name_;
+   std::vector<SettingsMember> members_;
 };
 
 } // namespace cattaneo::python

@@ -418,11 +418,11 @@ def test_derivatives_obey_ctrl_c():
     before = signal.signal(signal.SIGALRM, interrupt)
     try:
         for long in (lambda: sensitivity.gradient(response), lambda: sensitivity.along(change)):
-            signal.setitimer(signal.ITIMER_REAL, 0.02)
-            began = time.monotonic()
             with pytest.raises(KeyboardInterrupt):
+                began = time.process_time()
+                signal.setitimer(signal.ITIMER_REAL, 0.02)
                 long()
-            assert time.monotonic() - began < 0.4  # asked every tenth of a second
+            assert time.process_time() - began < 0.4  # asked every tenth of a second
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)

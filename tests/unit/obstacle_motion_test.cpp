@@ -65,10 +65,9 @@ TEST(ObstacleMotion, IsTheOppositeMotionOfTheSupport)
          const ReducedProblem &problem = k == 0 ? a : b;
          const MarchReport report =
             march(problem,
-                  LoadHistory::through(problem, {{},
-                                                 {{"down", 0.1}},
-                                                 {{"aside", 0.02}},
-                                                 {{"aside", 0}, {"turn", 0.01}}}),
+                  LoadHistory::through(
+                     problem,
+                     {{}, {{"down", 0.1}}, {{"aside", 0.02}}, {{"aside", 0}, {"turn", 0.01}}}),
                   states[k]);
          EXPECT_EQ(report.status, FrictionStatus::converged);
       }
