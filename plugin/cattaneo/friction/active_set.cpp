@@ -1,7 +1,7 @@
 #include <algorithm>
+#include <cattaneo/friction/complementarity.hpp>
 #include <cattaneo/friction/disc.hpp>
 #include <cattaneo/friction/methods.hpp>
-#include <set>
 
 namespace cattaneo
 {
@@ -34,23 +34,12 @@ Index ask_for_states(Increment &at)
 bool newton(Increment &at)
 {
    if (at.system.disc()) { return newton_in_the_disc(at); }
-   std::set<std::vector<NodeState>> visited;
-   // A few nodes of many that go on changing do so up to the last step allowed. Each step may
-   // cost a factor, of order n³: the path takes them one by one at n² each.
-   constexpr int enough = 8;
-   const Index few = at.system.n / 50;
-   Index fewest = at.system.n + 1;
-   int patience = enough;
-   for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
-   {
-      if (!visited.insert(at.status).second) { return false; } // it cycles
-      if (!solve_for_states(at)) { return false; }
-      const Index changed = ask_for_states(at);
-      if (changed == 0) { return ends_with_least_motion(at); }
-      patience = changed < fewest || fewest > few ? enough : patience - 1;
-      fewest = std::min(fewest, changed);
-   }
-   return false;
+   // Each step may cost a factor, of order n³: where a few nodes of many go on changing the
+   // path takes them one by one at n² each.
+   return newton_on_states(
+             at.status, at.system.settings.max_newton, at.system.n / 50,
+             [&] { return solve_for_states(at); }, [&] { return ask_for_states(at); }) &&
+          ends_with_least_motion(at);
 }
 
 bool polished(Increment &at)
@@ -73,8 +62,7 @@ Search active_set(Increment &at)
    {
       if (k > 0) { at.go_back(); }
       for (int j = 0; j < sweeps; ++j) { sweep(at); }
-      at.u_swept = at.u;
-      at.status_swept = at.status;
+      at.swept = {at.u, at.status};
       if (newton(at)) { return Search::found; }
       sweeps = std::max(4, 2 * sweeps);
    }

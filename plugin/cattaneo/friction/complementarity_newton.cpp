@@ -1,5 +1,6 @@
 #include <cattaneo/friction/complementarity.hpp>
 #include <set>
+#include <utility>
 
 namespace cattaneo
 {
@@ -57,35 +58,53 @@ NodeState wanted(const StateEquations &equations, Choice choice, Index i, const 
 
 } // namespace
 
+bool newton_on_states(std::vector<NodeState> &states, int max_steps, Index few,
+                      const std::function<bool()> &solve, const std::function<Index()> &ask)
+{
+   std::set<std::vector<NodeState>> tried;
+   // Few nodes of many that go on changing would do so up to the last step allowed.
+   constexpr int enough = 8;
+   Index fewest = static_cast<Index>(states.size()) + 1;
+   int patience = enough;
+   for (int k = 0; k < max_steps && patience > 0; ++k)
+   {
+      if (!tried.insert(states).second) { return false; } // it cycles
+      if (!solve()) { return false; }
+      const Index changed = ask();
+      if (changed == 0) { return true; }
+      patience = changed < fewest || fewest > few ? enough : patience - 1;
+      fewest = std::min(fewest, changed);
+   }
+   return false;
+}
+
 ComplementarityReport solve_by_newton(StateEquations &equations,
                                       const ComplementarityProblem &problem, int max_steps,
                                       ComplementarityReport start)
 {
    ComplementarityReport report = std::move(start);
    bool known = report.x.size() == problem.b.size();
-   std::set<std::vector<NodeState>> visited;
-   while (report.newton_steps < max_steps)
+   std::vector<NodeState> states = equations.states();
+   const auto solve = [&]
    {
-      if (!visited.insert(equations.states()).second) { break; } // it cycles
-      if (!known)
-      {
-         ++report.newton_steps;
-         if (!equations.solve(problem.b, report.x, report.F)) { break; }
-      }
-      known = false;
+      if (std::exchange(known, false)) { return true; }
+      ++report.newton_steps;
+      return equations.set(states) && equations.solve(problem.b, report.x, report.F);
+   };
+   const auto ask = [&]
+   {
       const VectorXd tiny = equations.round_off(problem.b, report.x);
-      std::vector<NodeState> next = equations.states();
+      Index changed = 0;
       for (Index i = 0; i < equations.nodes(); ++i)
       {
-         next[i] = wanted(equations, problem.choice[i], i, report.x, report.F, tiny);
+         const NodeState next =
+            wanted(equations, problem.choice[i], i, report.x, report.F, tiny);
+         changed += next != states[i];
+         states[i] = next;
       }
-      if (next == equations.states())
-      {
-         report.solved = true;
-         break;
-      }
-      if (!equations.set(next)) { break; }
-   }
+      return changed;
+   };
+   report.solved = newton_on_states(states, max_steps, 0, solve, ask);
    return report;
 }
 

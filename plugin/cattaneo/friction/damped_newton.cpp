@@ -59,7 +59,7 @@ MatrixXd natural_map_derivative(const Increment &at)
 bool descend(Increment &at)
 {
    FrictionSystem &s = at.system;
-   at.F = at.f + (*s.times_K)(at.u);
+   at.F = at.f + s.product->times(at.u);
    VectorXd R = natural_map(at);
    for (int k = 0; k < 2 * s.settings.max_newton; ++k)
    {
@@ -79,7 +79,7 @@ bool descend(Increment &at)
          share *= 0.5;
          if (share < 1e-6) { return false; }
          at.u = from - share * step;
-         at.F = at.f + (*s.times_K)(at.u);
+         at.F = at.f + s.product->times(at.u);
          next = natural_map(at);
       } while (!(next.norm() < (1 - 1e-4 * share) * size));
       R = next;
@@ -96,7 +96,7 @@ bool descend(Increment &at)
 Search damped_newton(Increment &at)
 {
    FrictionSystem &s = at.system;
-   if (s.frictionless) { return Search::not_here; }
+   if (s.frictionless()) { return Search::not_here; }
    // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
    const double operations = moves_away(at) ? 2e8 : 3e9;
    const VectorXd u_old = at.start.displacements();

@@ -79,7 +79,7 @@ void DiscEquations::gather(const Increment &at)
 /// nothing.
 DiscEquations::Origin DiscEquations::origin_at(const Increment &at, const VectorXd &u) const
 {
-   const VectorXd forces = at.f + (*at.system.times_K)(u);
+   const VectorXd forces = at.f + at.system.product->times(u);
    Origin origin{u, forces(closed_), {}};
    if (!open_.empty())
    {
@@ -102,7 +102,7 @@ DiscEquations::Linearised DiscEquations::linearise(const Increment &at) const
       const DiscSlip &slip = at.direction[i];
       to.along.col(r) = slip.n;
       to.across.col(r) = (1 - slip.share) * slip.t();
-      to.own.col(r) = slip.share * s.ktt[i] * slip.t();
+      to.own.col(r) = slip.share * s.lone.kt[i] * slip.t();
       to.slope[r] = s.problem.coupled ? s.bound[i].slope(at.F[s.m(i)]) : 0.0;
    }
    return to;
@@ -124,7 +124,8 @@ VectorXd DiscEquations::imbalance(const Increment &at, const Origin &from) const
       // B = 0: slip does not change the pressure, which is known.
       const double p = s.problem.coupled ? from.forces[k + 2 * closed_nodes_] : at.F[s.m(i)];
       off[r] = to.n.dot(q) - s.bound[i].line(p);
-      off[count + r] = (1 - to.share) * to.t().dot(q) + to.share * s.ktt[i] * to.t().dot(slip);
+      off[count + r] =
+         (1 - to.share) * to.t().dot(q) + to.share * s.lone.kt[i] * to.t().dot(slip);
    }
    return off;
 }
@@ -339,7 +340,7 @@ bool DiscEquations::solve(Increment &at)
       // 6. Once more from there where the round-off of the origin is a large part of it.
       if (again || !cancels(s.K.diagonal(), from.u, at.u)) { break; }
    }
-   at.F = at.f + (*s.times_K)(at.u);
+   at.F = at.f + s.product->times(at.u);
    return true;
 }
 

@@ -289,18 +289,18 @@ HeldBySprings hold_by_springs(Increment &at)
       // 1. The end of the increment with these springs.
       FrictionSystem sprung(
          std::make_shared<ReducedProblem>(with_springs(problem, spring, anchor)), s.settings);
-      sprung.brief = true;
-      ContactState next = begin;
-      const IncrementReport report = sprung.solve(next, loads);
+      Increment of_sprung(sprung, begin, loads);
+      const bool found = find_held_end(of_sprung);
       s.counters += sprung.counters;
-      if (report.status != FrictionStatus::converged &&
-          report.status != FrictionStatus::not_unique)
+      if (!found)
       {
          if (alike > 0) { break; }
          borne.resize(0);
          continue;
       }
       // 2. The next springs are fixed where these have let the bodies go.
+      ContactState &next = of_sprung.next;
+      if (!sprung.frictionless()) { of_sprung.name_states(next); }
       const VectorXd moved = next.displacements() - anchor;
       const VectorXd bears = spring * Z * (Z.transpose() * moved);
       anchor += moved;
@@ -333,24 +333,20 @@ Mechanism find_spinning(Increment &at)
    {
       return {};
    }
-   if (!s.smooth)
+   // 1. The contact without friction, which could not bear the torque.
+   auto without = std::make_shared<ReducedProblem>(problem);
+   set_friction(*without, 0);
+   const MatrixXd Z = rigid_slips(problem);
+   for (LoadPattern &pattern : without->patterns)
    {
-      ReducedProblem without = problem;
-      set_friction(without, 0);
-      // It could not bear the torque.
-      const MatrixXd Z = rigid_slips(problem);
-      for (LoadPattern &pattern : without.patterns)
-      {
-         pattern.q -= Z * (Z.transpose() * pattern.q);
-      }
-      s.smooth = std::make_unique<FrictionSolver>(without);
+      pattern.q -= Z * (Z.transpose() * pattern.q);
    }
-   ContactState state = ContactState::virgin(problem);
-   if (s.smooth->solve(state, at.multipliers).status != FrictionStatus::converged)
-   {
-      return {};
-   }
-   return find_spinning(problem, state.p, problem.clamped_forces(at.multipliers),
+   FrictionSystem smooth(without, s.settings);
+   const ContactState virgin = ContactState::virgin(problem);
+   Increment of_smooth(smooth, virgin, at.multipliers);
+   if (!find_held_end(of_smooth)) { return {}; }
+   // 2. With its pressures.
+   return find_spinning(problem, of_smooth.next.p, problem.clamped_forces(at.multipliers),
                         s.settings.tolerance * at.reference);
 }
 
@@ -360,11 +356,8 @@ bool moves_away(Increment &at)
 {
    if (!at.springs)
    {
-      at.springs = at.system.brief ? HeldBySprings{} : hold_by_springs(at);
-      if (!at.system.brief && !at.springs->away.exists)
-      {
-         at.springs->away = find_spinning(at);
-      }
+      at.springs = hold_by_springs(at);
+      if (!at.springs->away.exists) { at.springs->away = find_spinning(at); }
    }
    at.mechanism = at.springs->away;
    return at.mechanism.exists;
@@ -374,7 +367,7 @@ Search weak_springs(Increment &at)
 {
    if (moves_away(at) || !at.springs->state) { return Search::not_here; }
    const ContactState &held = *at.springs->state;
-   at.take(at.system.frictionless ? held.w : held.displacements(), held.status);
+   at.take(at.system.frictionless() ? held.w : held.displacements(), held.status);
    if (newton(at)) { return Search::found; }
    return at.springs->bear_nothing ? Search::hopeless : Search::not_here;
 }

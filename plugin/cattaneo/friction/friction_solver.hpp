@@ -43,7 +43,9 @@ struct FrictionSettings
    /// loads with the contact clamped, of the contact, of initial slip or interference).
    /// Where round-off is larger than this, round-off is the limit (reported).
    double tolerance = 1e-12;
-   int sweeps = 2;       ///< Gauss–Seidel sweeps before the first active-set attempt
+   /// Gauss–Seidel sweeps before the first active-set attempt; with two tangential components
+   /// one without any comes before.
+   int sweeps = 2;
    int max_attempts = 3; ///< active-set attempts, each after twice the sweeps of the one before
    int max_newton = 60;  ///< active-set steps of one attempt
    long max_sweeps = 100000; ///< sweeps of the pure Gauss–Seidel method

@@ -17,7 +17,15 @@ namespace
 const ReducedProblem &valid(const ReducedProblem &problem)
 {
    problem.validate();
+   require(problem.components() <= 2, "friction solver: the reduced problem has ",
+           problem.components(), " tangential components a node, at most 2 are supported");
    return problem;
+}
+
+std::unique_ptr<WithoutSlip> eliminate_slip(const ReducedProblem &problem)
+{
+   const bool frictionless = problem.components() == 0 || problem.friction.maxCoeff() == 0;
+   return frictionless ? std::make_unique<WithoutSlip>(problem) : nullptr;
 }
 
 } // namespace
@@ -28,47 +36,9 @@ VectorXd node_lengths(const ReducedProblem &problem)
    return known ? problem.weights : VectorXd::Ones(problem.nodes());
 }
 
-FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
-                               const FrictionSettings &chosen)
-   : shared(std::move(given)), problem(valid(*shared)), settings(chosen), n(problem.nodes()),
-     frictionless(problem.components() == 0 || problem.friction.maxCoeff() == 0),
-     K(frictionless ? normal : problem.K)
+WithoutSlip::WithoutSlip(const ReducedProblem &of) : problem(of), K(of.C())
 {
-   settings.validate();
-   require(problem.components() <= 2, "friction solver: the reduced problem has ",
-           problem.components(), " tangential components a node, at most 2 are supported");
-   c = frictionless ? 0 : problem.components();
-   bound = friction_bounds(problem);
-   const auto bends = [](const FrictionBound &of) { return of.bends(); };
-   if (!frictionless && std::any_of(bound.begin(), bound.end(), bends))
-   {
-      laws = bound;
-      take_pieces(VectorXd::Zero(n));
-   }
-   knn = problem.C().diagonal();
-   if (!frictionless)
-   {
-      counters.tangential_unknowns = c * n;
-      ktt = problem.A().diagonal().head(n);
-      critical.resize(n);
-      for (Index i = 0; i < n; ++i)
-      {
-         const LoneNode node = lone_node(problem, i);
-         if (disc()) { ktt[i] = std::sqrt(node.A.determinant()); }
-         critical[i] = critical_friction(node);
-      }
-      arithmetic = std::make_unique<RoundOff>(K);
-      times_K = times_whole_K = std::make_shared<SymmetricProduct>(K);
-      return;
-   }
-   normal = problem.C();
-   // What little is left of K where a body is free to slide away up a slope is round-off of C.
-   arithmetic = std::make_unique<RoundOff>(problem.C());
-   if (problem.components() == 0)
-   {
-      times_K = times_whole_K = std::make_shared<SymmetricProduct>(K);
-      return;
-   }
+   if (problem.components() == 0) { return; }
    slides_freely = rigid_slips(problem);
    tangential = std::make_unique<SemidefiniteSolver>(problem.A(), slides_freely);
    if (slides_freely.cols() > 0)
@@ -78,21 +48,76 @@ FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
       const MatrixXd square = slides_freely.transpose() * weighted;
       share_of_motion = solve_semidefinite(square, weighted.transpose());
    }
-   whole_arithmetic = std::make_unique<RoundOff>(problem.K);
-   ++counters.dense_factorisations;
-   normal -= problem.B() * tangential->solve(problem.B().transpose());
-   normal = (0.5 * (normal + normal.transpose())).eval();
-   knn = K.diagonal();
-   times_K = std::make_shared<SymmetricProduct>(K);
-   times_whole_K = std::make_shared<SymmetricProduct>(problem.K);
+   K -= problem.B() * tangential->solve(problem.B().transpose());
+   K = (0.5 * (K + K.transpose())).eval();
+}
+
+VectorXd WithoutSlip::normal_forces(const VectorXd &clamped) const
+{
+   const VectorXd p = clamped.tail(problem.nodes());
+   if (!tangential) { return p; }
+   return p - problem.B() * tangential->solve(clamped.head(problem.slips()));
+}
+
+VectorXd WithoutSlip::slip(const VectorXd &v, const VectorXd &w, const VectorXd &clamped) const
+{
+   if (!tangential) { return v; }
+   const VectorXd q = problem.B().transpose() * w + clamped.head(problem.slips());
+   VectorXd next = -tangential->solve(q);
+   if (slides_freely.cols() > 0)
+   {
+      const VectorXd moved = next - v;
+      next -= slides_freely * (share_of_motion * moved);
+   }
+   return next;
+}
+
+FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
+                               const FrictionSettings &chosen)
+   : shared(std::move(given)), problem(valid(*shared)), settings(chosen), n(problem.nodes()),
+     c(problem.components() == 0 || problem.friction.maxCoeff() == 0 ? 0
+                                                                     : problem.components()),
+     without_slip(eliminate_slip(problem)), K(without_slip ? without_slip->K : problem.K),
+     bound(friction_bounds(problem))
+{
+   settings.validate();
+   const auto bends = [](const FrictionBound &of) { return of.bends(); };
+   if (!frictionless() && std::any_of(bound.begin(), bound.end(), bends))
+   {
+      laws = bound;
+      take_pieces(VectorXd::Zero(n));
+   }
+   lone.kn = K.diagonal().tail(n);
+   if (frictionless())
+   {
+      counters.dense_factorisations = without_slip->tangential ? 1 : 0;
+      // What little is left of K where a body is free to slide away up a slope is round-off of
+      // C.
+      product = std::make_shared<StiffnessProduct>(
+         StiffnessProduct{SymmetricProduct(K), RoundOff(problem.C())});
+      whole_product = std::make_shared<StiffnessProduct>(
+         StiffnessProduct{SymmetricProduct(problem.K), RoundOff(problem.K)});
+      return;
+   }
+   counters.tangential_unknowns = c * n;
+   lone.kt = problem.A().diagonal().head(n);
+   lone.critical.resize(n);
+   for (Index i = 0; i < n; ++i)
+   {
+      const LoneNode node = lone_node(problem, i);
+      if (disc()) { lone.kt[i] = std::sqrt(node.A.determinant()); }
+      lone.critical[i] = critical_friction(node);
+   }
+   product = whole_product =
+      std::make_shared<StiffnessProduct>(StiffnessProduct{SymmetricProduct(K), RoundOff(K)});
 }
 
 void FrictionSystem::take_pieces(const VectorXd &p)
 {
    for (Index i = 0; i < n; ++i) { bound[i] = laws[i].straight(p[i]); }
    // These have the pieces before.
-   coupled_equations.reset();
-   tangential_equations.reset();
+   equations.coupled.reset();
+   equations.tangential.reset();
 }
 
 double FrictionSystem::friction(Index i, const ContactState *state) const
@@ -105,10 +130,10 @@ Index FrictionSystem::above_critical(const ContactState *state) const
 {
    Index worst = -1;
    double most = 1; // friction over its critical value
-   for (Index i = 0; !frictionless && i < n; ++i)
+   for (Index i = 0; !frictionless() && i < n; ++i)
    {
       const bool counts = !state || closed(state->status[i]);
-      const double share = friction(i, state) / critical[i];
+      const double share = friction(i, state) / lone.critical[i];
       if (!counts || !(share >= most) || (worst >= 0 && share == most)) { continue; }
       worst = i;
       most = share;
@@ -123,9 +148,8 @@ bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next,
    // friction may go far, and bears on the pressure.
    const VectorXd all = next.displacements();
    const VectorXd clamped = problem.clamped_forces(next.multipliers);
-   const VectorXd forces = clamped + (*times_whole_K)(all);
-   const VectorXd rows =
-      (tangential ? whole_arithmetic : arithmetic)->rows(all.cwiseAbs(), clamped);
+   const VectorXd forces = clamped + whole_product->times(all);
+   const VectorXd rows = whole_product->arithmetic.rows(all.cwiseAbs(), clamped);
    report.round_off = rows.maxCoeff() / scale;
    if (!(report.round_off < lost)) { return false; }
    const LawCheck check =
@@ -172,7 +196,7 @@ IncrementReport FrictionSystem::uniqueness(const ContactState &state) const
    if (node < 0) { return report; }
    std::ostringstream message;
    message << "friction " << friction(node, &state) << " at node " << node
-           << " is above its critical value " << critical[node];
+           << " is above its critical value " << lone.critical[node];
    report.status = FrictionStatus::not_unique;
    report.message = message.str();
    return report;

@@ -25,10 +25,10 @@ void sweep(Increment &at)
    for (Index i = 0; i < s.n; ++i)
    {
       // A body that is free to slide away up a slope meets no resistance.
-      if (s.frictionless && !(s.knn[i] > 0)) { continue; }
-      LoneNode node = s.frictionless ? LoneNode{} : lone_node(s.problem, i);
-      if (!s.frictionless) { node.bound = s.bound[i]; }
-      node.c = s.knn[i];
+      if (s.frictionless() && !(s.lone.kn[i] > 0)) { continue; }
+      LoneNode node = s.frictionless() ? LoneNode{} : lone_node(s.problem, i);
+      if (!s.frictionless()) { node.bound = s.bound[i]; }
+      node.c = s.lone.kn[i];
       const NodeVector slip = at.slip(i);
       const double gap = at.gap(i);
       node.q0 = at.along(at.F, i) - node.A * slip - gap * node.b;
@@ -52,7 +52,7 @@ Search gauss_seidel(Increment &at)
    {
       sweep(at);
       // The forces are updated by columns; now and then they are formed anew, against drift.
-      if (k % 64 == 63) { at.F = at.f + (*at.system.times_K)(at.u); }
+      if (k % 64 == 63) { at.F = at.f + at.system.product->times(at.u); }
       if (!at.u.allFinite()) { break; }
       if (at.residuals() && at.ends_here()) { return Search::found; }
    }

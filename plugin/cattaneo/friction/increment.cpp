@@ -15,39 +15,34 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
    const VectorXd clamped = s.problem.clamped_forces(multipliers);
    reference = std::max(state.peak_force, clamped.cwiseAbs().maxCoeff());
    // Initial interference loads the contact too.
-   reference = std::max(reference, (-s.problem.gap.array() * s.knn.array()).maxCoeff());
-   if (!s.frictionless)
+   reference = std::max(reference, (-s.problem.gap.array() * s.lone.kn.array()).maxCoeff());
+   if (!s.frictionless())
    {
       f = clamped;
       u = state.displacements();
    }
    else
    {
-      f = clamped.tail(s.n);
-      if (s.tangential)
-      {
-         f -= s.problem.B() * s.tangential->solve(clamped.head(s.problem.slips()));
-      }
+      f = s.without_slip->normal_forces(clamped);
       u = state.w;
    }
    for (Index i = 0; i < s.n; ++i)
    {
       if (closed(status[i])) { u[s.m(i)] = -s.problem.gap[i]; }
    }
-   if (!s.frictionless && state.peak_force > 0)
+   if (!s.frictionless() && state.peak_force > 0)
    {
       // The state of an increment before: where sweeps begin; what is accepted is formed anew.
       F = state.forces() - s.problem.clamped_forces(state.multipliers);
    }
-   else { F = (*s.times_K)(u); }
+   else { F = s.product->times(u); }
    // So does initial slip; slip that displacements elsewhere follow does not.
    reference = std::max(reference, F.cwiseAbs().maxCoeff());
    F += f;
-   u_swept = u;
-   status_swept = status;
+   swept = {u, status};
    // What comes out depends on the state and the loads, not on increments before: a march that
    // is cut and resumed gives the same bits.
-   for (auto *equations : {&s.coupled_equations, &s.normal_equations, &s.tangential_equations})
+   for (auto *equations : {&s.equations.coupled, &s.equations.normal, &s.equations.tangential})
    {
       if (*equations) { (*equations)->begin(); }
    }
@@ -66,8 +61,8 @@ ContactNode Increment::node(Index i) const
            along(F, i),
            gap(i),
            F[system.m(i)],
-           system.frictionless ? 0.0 : system.ktt[i],
-           system.knn[i],
+           system.frictionless() ? 0.0 : system.lone.kt[i],
+           system.lone.kn[i],
            system.bound[i]};
 }
 
@@ -81,7 +76,7 @@ double Increment::round_off_along(const VectorXd &rows, Index i) const
 void Increment::take(const VectorXd &displacements, const std::vector<NodeState> &states)
 {
    u = displacements;
-   F = f + (*system.times_K)(u);
+   F = f + system.product->times(u);
    status = states;
 }
 
@@ -94,21 +89,14 @@ ContactState Increment::end() const
    next.status = status;
    next.w = u.tail(s.n);
    next.p = F.tail(s.n);
-   if (!s.frictionless)
+   if (!s.frictionless())
    {
       next.v = u.head(s.c * s.n);
       next.q = F.head(s.c * s.n);
    }
-   else if (s.tangential)
+   else if (s.without_slip->tangential)
    {
-      const VectorXd clamped = s.problem.clamped_forces(multipliers).head(s.problem.slips());
-      next.v = -s.tangential->solve(s.problem.B().transpose() * next.w + clamped);
-      // What nothing holds has not moved on the whole, as the contact's length goes.
-      if (s.slides_freely.cols() > 0)
-      {
-         const VectorXd moved = next.v - start.v;
-         next.v -= s.slides_freely * (s.share_of_motion * moved);
-      }
+      next.v = s.without_slip->slip(start.v, next.w, s.problem.clamped_forces(multipliers));
       next.q.setZero();
       for (Index i = 0; i < s.n; ++i)
       {
@@ -155,7 +143,7 @@ bool Increment::residuals()
       const NodeResidual R = residual(at);
       normal = std::max(normal, std::abs(R.normal));
       small = small && std::abs(R.normal) <= std::max(allowed, left[s.m(i)]);
-      if (s.frictionless) { continue; }
+      if (s.frictionless()) { continue; }
       const double limit = std::max(allowed, round_off_along(left, i));
       // An open node bears nothing, not f times what is left of its pressure.
       double size = magnitude(closed(status[i]) ? R.tangential : at.q);

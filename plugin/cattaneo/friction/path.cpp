@@ -15,13 +15,13 @@ Search path(Increment &at)
    VectorXd stuck(s.K.rows()), forces(s.K.rows());
    stuck.tail(n) = -s.problem.gap;
    forces.tail(n) = at.start.p;
-   if (!s.frictionless)
+   if (!s.frictionless())
    {
       stuck.head(n) = at.start.v;
       forces.head(n) = at.start.q;
    }
    ComplementarityProblem increment;
-   increment.b = at.f + (*s.times_K)(stuck);
+   increment.b = at.f + s.product->times(stuck);
    increment.choice.assign(n, Choice::any);
    VectorXd x = VectorXd::Zero(s.K.rows());
    x.tail(n) = at.start.w + s.problem.gap;
@@ -33,11 +33,11 @@ Search path(Increment &at)
    // Small departures follow the physical path; larger ones pass by its dead ends.
    const double slacks[] = {1e-3, 1e-2, 0.1, 1, 10, 1, 0.1, 1};
    unsigned seed = 0;
-   if (!s.coupled_equations)
+   if (!s.equations.coupled)
    {
-      s.coupled_equations = std::make_unique<StateEquations>(s.K, s.bound);
+      s.equations.coupled = std::make_unique<StateEquations>(s.K, s.bound);
    }
-   StateEquations &equations = *s.coupled_equations;
+   StateEquations &equations = *s.equations.coupled;
    for (double slack : slacks)
    {
       const long factorisations = equations.factorisations();

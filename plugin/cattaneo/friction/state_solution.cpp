@@ -71,7 +71,7 @@ bool solve_normal(Increment &at)
       states[i] = closed(at.status[i]) ? NodeState::stick : NodeState::separation;
    }
    VectorXd w = closed_gaps(at), p;
-   if (!solve_equations(s, s.normal_equations, s.K.bottomRightCorner(s.n, s.n), states,
+   if (!solve_equations(s, s.equations.normal, s.K.bottomRightCorner(s.n, s.n), states,
                         at.f.tail(s.n), w, p))
    {
       return false;
@@ -99,7 +99,7 @@ bool solve_uncoupled(Increment &at)
       if (way != 0) { resistance[i] = way * s.bound[i].line(at.F[s.m(i)], way); }
    }
    VectorXd v = at.start.v, q;
-   if (!solve_equations(s, s.tangential_equations, s.problem.A(), states,
+   if (!solve_equations(s, s.equations.tangential, s.problem.A(), states,
                         at.f.head(n) + resistance, v, q))
    {
       return false;
@@ -114,7 +114,7 @@ bool solve_coupled(Increment &at)
    FrictionSystem &s = at.system;
    VectorXd found(at.u.size());
    found << at.start.v, closed_gaps(at);
-   if (!solve_equations(s, s.coupled_equations, s.K, at.status, at.f, found, at.F))
+   if (!solve_equations(s, s.equations.coupled, s.K, at.status, at.f, found, at.F))
    {
       return false;
    }
@@ -128,7 +128,7 @@ bool solve_for_states(Increment &at)
 {
    const FrictionSystem &s = at.system;
    ++at.system.counters.newton_steps;
-   const bool solved = s.frictionless      ? solve_normal(at)
+   const bool solved = s.frictionless()    ? solve_normal(at)
                        : s.disc()          ? at.system.disc_equations.solve(at)
                        : s.problem.coupled ? solve_coupled(at)
                                            : solve_uncoupled(at);

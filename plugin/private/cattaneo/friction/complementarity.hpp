@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/friction/state_equations.hpp>
+#include <functional>
 
 namespace cattaneo
 {
@@ -33,6 +34,15 @@ struct ComplementarityReport
    long pivots = 0;       ///< exchanges of single nodes by the path
    Eigen::VectorXd x, F;
 };
+
+/** Semismooth Newton steps on node states, as increments and rates share them: `solve` finds
+   the solution of the linear equations that the states stand for, `ask` gives the nodes the
+   states that this asks for and says how many changed. True where none does any more; false
+   where the states come back to ones that were tried, where the equations are singular, after
+   max_steps, or where `few` nodes or fewer go on changing. */
+bool newton_on_states(std::vector<NodeState> &states, int max_steps, Eigen::Index few,
+                      const std::function<bool()> &solve,
+                      const std::function<Eigen::Index()> &ask);
 
 /// Semismooth Newton steps from the states of `equations`, which hold the solution's if solved.
 /// `start` may bring x and F of these states, to save their solution.

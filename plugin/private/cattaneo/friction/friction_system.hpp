@@ -20,6 +20,46 @@ constexpr double may_hide_sliding = 1e-10;
 /// Of the contact, for each node: its weight, or one where these are not known.
 Eigen::VectorXd node_lengths(const ReducedProblem &problem);
 
+/// A contact without friction: nodes slip freely, and only their gaps are left to find.
+struct WithoutSlip
+{
+   explicit WithoutSlip(const ReducedProblem &problem);
+   /// Forces of the gaps where nothing opens, under clamped forces {q; p}.
+   Eigen::VectorXd normal_forces(const Eigen::VectorXd &clamped) const;
+   /// Where the nodes slip to from v with the normal displacements w; what nothing holds has
+   /// not moved on the whole, as the contact's length goes.
+   Eigen::VectorXd slip(const Eigen::VectorXd &v, const Eigen::VectorXd &w,
+                        const Eigen::VectorXd &clamped) const;
+
+   const ReducedProblem &problem;
+   Eigen::MatrixXd K; // of the gaps
+   // None where the problem has no tangential displacements; motions along the contact that
+   // nothing resists, and how much of each is in some displacements.
+   std::unique_ptr<SemidefiniteSolver> tangential;
+   Eigen::MatrixXd slides_freely, share_of_motion;
+};
+
+/// Products with a stiffness, and what arithmetic leaves of sums K u + f.
+struct StiffnessProduct
+{
+   SymmetricProduct times;
+   RoundOff arithmetic;
+};
+
+/// Each node alone.
+struct LoneNodes
+{
+   Eigen::VectorXd kt, kn;   // own stiffness (disc: kt is its mean)
+   Eigen::VectorXd critical; // friction
+};
+
+/// Equations of the states: all at once, or the gaps and then the slip (B = 0). Each is made
+/// when first needed.
+struct PlaneEquations
+{
+   std::unique_ptr<StateEquations> coupled, normal, tangential;
+};
+
 /// What FrictionSolver keeps from increment to increment.
 struct FrictionSystem
 {
@@ -34,31 +74,17 @@ struct FrictionSystem
    const ReducedProblem &problem;
    FrictionSettings settings;
    Counters counters;
+   const Index n, c; // nodes and tangential components (frictionless: none)
+   const std::unique_ptr<WithoutSlip> without_slip; // frictionless
+   const MatrixXd &K;                               // the problem's, or without slip
+   std::vector<FrictionBound> bound; // of each node, of a law that bends the piece taken
+   std::vector<FrictionBound> laws;  // of each node, if one of them bends
+   LoneNodes lone;
+   std::shared_ptr<StiffnessProduct> product, whole_product; // of K, of the problem's K
+   PlaneEquations equations;
+   DiscEquations disc_equations;
 
-   Index n = 0, c = 0; // nodes and tangential components (frictionless: none)
-   const bool frictionless;
-   std::vector<FrictionBound> bound;     // of each node, of a law that bends the pieces taken
-   std::vector<FrictionBound> laws;      // of each node, if one of them bends
-   VectorXd ktt, knn;                    // each node's own stiffness (disc: ktt is its mean)
-   VectorXd critical;                    // friction of each node
-   MatrixXd normal;                      // frictionless: the normal stiffness, slip eliminated
-   const MatrixXd &K;                    // the problem's, or `normal` if frictionless
-   std::unique_ptr<RoundOff> arithmetic; // of sums K u + f
-   std::shared_ptr<SymmetricProduct> times_K, times_whole_K; // the latter of the problem's
-
-   // Frictionless: tangential displacements follow by A⁻¹; motions along the contact that
-   // nothing resists, and how much of each is in some displacements, by the length of the
-   // contact.
-   std::unique_ptr<SemidefiniteSolver> tangential;
-   MatrixXd slides_freely, share_of_motion;
-   std::unique_ptr<RoundOff> whole_arithmetic; // of the problem's K
-
-   // Equations of the states: all at once, or the gaps and then the slip (B = 0).
-   std::unique_ptr<StateEquations> coupled_equations, normal_equations, tangential_equations;
-   DiscEquations disc_equations;           // disc
-   std::unique_ptr<FrictionSolver> smooth; // disc: the contact without friction, when asked
-   bool brief = false;                     // give up where sweeps, active set and path fail
-
+   bool frictionless() const { return c == 0; }
    bool disc() const { return c == 2; }                      // friction force in the disc
    Index t(Index i, Index k = 0) const { return k * n + i; } // row of a tangential entry
    Index m(Index i) const { return c * n + i; }              // row of the normal entry

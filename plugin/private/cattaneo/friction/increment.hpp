@@ -21,6 +21,13 @@ struct Increment
    using Index = Eigen::Index;
    using VectorXd = Eigen::VectorXd;
 
+   /// Displacements, with the states of the nodes there.
+   struct Place
+   {
+      VectorXd u;
+      std::vector<NodeState> status;
+   };
+
    /// Stands at the start, with the loads of the end.
    Increment(FrictionSystem &system, const ContactState &start, const VectorXd &multipliers);
 
@@ -34,8 +41,7 @@ struct Increment
    std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
    double reference = 0;            // largest force so far, the scale of residuals
    // Where the last sweeps ended, from which every method sets out.
-   VectorXd u_swept;
-   std::vector<NodeState> status_swept;
+   Place swept;
 
    IncrementReport report;
    ContactState next; // the end that ends_here() judged last
@@ -50,13 +56,13 @@ struct Increment
    NodeVector slip(Index i) const { return along(u, i) - along(start.v, i); }
    ContactNode node(Index i) const;
    /// Of each row of F, see RoundOff.
-   VectorXd round_off() const { return system.arithmetic->rows(u.cwiseAbs(), f); }
+   VectorXd round_off() const { return system.product->arithmetic.rows(u.cwiseAbs(), f); }
    /// What friction lets a node's rows leave of round-off: that of its own forces and of its
    /// bound.
    double round_off_along(const VectorXd &rows, Index i) const;
 
    void take(const VectorXd &displacements, const std::vector<NodeState> &states);
-   void go_back() { take(u_swept, status_swept); }
+   void go_back() { take(swept.u, swept.status); }
    /// The state at the end, with exact zeros where the node states say zero.
    ContactState end() const;
    /// Gives the nodes of an accepted end states that fit how they slip and what they bear.

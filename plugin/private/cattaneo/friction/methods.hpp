@@ -33,6 +33,10 @@ bool polished(Increment &at);
 /// Follows solutions from elsewhere to the one sought, one node's state at a time.
 Search path(Increment &at);
 
+/// The methods of bodies that something holds: active_set() and path(), on the pieces of a law
+/// of friction that bends.
+bool find_held_end(Increment &at);
+
 /// From what weak springs hold to an answer without them.
 Search weak_springs(Increment &at);
 /// Does a body drift or spin away, so that there is no equilibrium? Found once an increment.
