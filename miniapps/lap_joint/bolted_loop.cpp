@@ -34,9 +34,10 @@ BoltedLoop pull(Run &run, std::vector<NamedLoads> points, double load, int cycle
    BoltedLoop loop;
    const ReducedProblem &problem = run.solver.problem();
    const int tightened = static_cast<int>(points.size()) - 1;
-   NamedLoads loaded = points.back();
+   NamedLoads loaded = points.back(), released = points.back();
    loaded["T"] = load;
-   points.insert(points.end(), {loaded, points.back()});
+   released["T"] = 0;
+   points.insert(points.end(), {loaded, released});
    LoadHistory history = LoadHistory::through(problem, points);
    history.cycle_start = tightened;
    history.cycles = cycles;

@@ -85,6 +85,19 @@ def rows(file):
         return [[value(cell) for cell in row] for row in csv.reader(text)]
 
 
+# Each step has its own, which are judged when it is accepted.
+RESIDUALS = ("residual_normal", "residual_tangential", "round_off")
+
+
+def alike(one, other):
+    """Are two results the same? A path that is taken up has a new factor, and agrees to round-off."""
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(alike(one[key], other[key]) for key in one)
+    if isinstance(one, list):
+        return len(one) == len(other) and all(map(alike, one, other))
+    return one == other or (isinstance(one, float) and math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-12))
+
+
 def check_going_on(programs, problems):
     """A march that is interrupted within a cycle and gone on with writes the tables of one that was not."""
     with tempfile.TemporaryDirectory() as folder:
@@ -113,13 +126,14 @@ def check_going_on(programs, problems):
             raise AssertionError(f"never interrupted within a cycle, at last at {cut}")
         rest = march("cut", "--load-state", folder / "first")
         for key in ("first_cycle", "steady_cycle", "steady_period", "time", "zones", "total_dissipation"):
-            assert rest[key] == whole[key], (key, cut, rest[key], whole[key])
+            assert alike(rest[key], whole[key]), (key, cut, rest[key], whole[key])
         assert len(whole["cycles"]) > 1
         for table in ("cycles", "history", "nodes"):
             one, other = rows(folder / f"whole_{table}.csv"), rows(folder / f"cut_{table}.csv")
             assert len(one) == len(other), (table, cut, len(one), len(other))
             for a, b in zip(one, other):
-                assert len(a) == len(b) and all(x == y or math.isclose(x, y, rel_tol=1e-9, abs_tol=1e-300) for x, y in zip(a, b)), (table, cut, a, b)
+                assert len(a) == len(b), (table, cut, a, b)
+                assert all(name in RESIDUALS or alike(x, y) for name, x, y in zip(one[0], a, b)), (table, cut, a, b)
 
 
 def main():

@@ -168,6 +168,23 @@ bool rests(Increment &at)
    return ends_with_least_motion(at);
 }
 
+/// A frictionless contact with its slip among the unknowns.
+IncrementReport solve_with_slip(FrictionSystem &system, ContactState &state,
+                                const VectorXd &multipliers)
+{
+   std::unique_ptr<FrictionSystem> &whole = system.without_slip->kept;
+   if (!whole)
+   {
+      whole = std::make_unique<FrictionSystem>(system.shared, system.settings, true);
+      system.counters += whole->counters;
+   }
+   const Counters before = whole->counters;
+   const IncrementReport report = whole->solve(state, multipliers);
+   system.counters += whole->counters;
+   system.counters -= before;
+   return report;
+}
+
 /// Names the cause why no end of the increment was found.
 void explain_failure(Increment &at)
 {
@@ -238,6 +255,13 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
    if (!solved && !at.mechanism.exists)
    {
       solved = (laws.empty() || !at.finds_mechanism()) && rests(at);
+   }
+   // 5. A free body without friction on a line that is nearly straight: that slip was
+   // eliminated may have cost the digits. All is solved with it once more.
+   const bool eliminated = without_slip && without_slip->tangential;
+   if (!solved && !at.mechanism.exists && eliminated)
+   {
+      return solve_with_slip(*this, state, multipliers);
    }
    if (!solved)
    {

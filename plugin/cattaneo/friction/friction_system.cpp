@@ -22,12 +22,6 @@ const ReducedProblem &valid(const ReducedProblem &problem)
    return problem;
 }
 
-std::unique_ptr<WithoutSlip> eliminate_slip(const ReducedProblem &problem)
-{
-   const bool frictionless = problem.components() == 0 || problem.friction.maxCoeff() == 0;
-   return frictionless ? std::make_unique<WithoutSlip>(problem) : nullptr;
-}
-
 } // namespace
 
 VectorXd node_lengths(const ReducedProblem &problem)
@@ -52,6 +46,8 @@ WithoutSlip::WithoutSlip(const ReducedProblem &of) : problem(of), K(of.C())
    K = (0.5 * (K + K.transpose())).eval();
 }
 
+WithoutSlip::~WithoutSlip() = default;
+
 VectorXd WithoutSlip::normal_forces(const VectorXd &clamped) const
 {
    const VectorXd p = clamped.tail(problem.nodes());
@@ -73,12 +69,11 @@ VectorXd WithoutSlip::slip(const VectorXd &v, const VectorXd &w, const VectorXd 
 }
 
 FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
-                               const FrictionSettings &chosen)
+                               const FrictionSettings &chosen, bool keeps_slip)
    : shared(std::move(given)), problem(valid(*shared)), settings(chosen), n(problem.nodes()),
-     c(problem.components() == 0 || problem.friction.maxCoeff() == 0 ? 0
-                                                                     : problem.components()),
-     without_slip(eliminate_slip(problem)), K(without_slip ? without_slip->K : problem.K),
-     bound(friction_bounds(problem))
+     c(keeps_slip || problem.friction.maxCoeff() > 0 ? problem.components() : 0),
+     without_slip(c > 0 ? nullptr : std::make_unique<WithoutSlip>(problem)),
+     K(without_slip ? without_slip->K : problem.K), bound(friction_bounds(problem))
 {
    settings.validate();
    const auto bends = [](const FrictionBound &of) { return of.bends(); };

@@ -20,10 +20,13 @@ constexpr double may_hide_sliding = 1e-10;
 /// Of the contact, for each node: its weight, or one where these are not known.
 Eigen::VectorXd node_lengths(const ReducedProblem &problem);
 
+struct FrictionSystem;
+
 /// A contact without friction: nodes slip freely, and only their gaps are left to find.
 struct WithoutSlip
 {
    explicit WithoutSlip(const ReducedProblem &problem);
+   ~WithoutSlip();
    /// Forces of the gaps where nothing opens, under clamped forces {q; p}.
    Eigen::VectorXd normal_forces(const Eigen::VectorXd &clamped) const;
    /// Where the nodes slip to from v with the normal displacements w; what nothing holds has
@@ -37,6 +40,8 @@ struct WithoutSlip
    // nothing resists, and how much of each is in some displacements.
    std::unique_ptr<SemidefiniteSolver> tangential;
    Eigen::MatrixXd slides_freely, share_of_motion;
+   // The same contact with its slip among the unknowns, made when that is first needed.
+   std::unique_ptr<FrictionSystem> kept;
 };
 
 /// Products with a stiffness, and what arithmetic leaves of sums K u + f.
@@ -67,7 +72,9 @@ struct FrictionSystem
    using MatrixXd = Eigen::MatrixXd;
    using VectorXd = Eigen::VectorXd;
 
-   FrictionSystem(std::shared_ptr<const ReducedProblem> given, const FrictionSettings &chosen);
+   /// `keeps_slip`: slip is among the unknowns, also where there is no friction.
+   FrictionSystem(std::shared_ptr<const ReducedProblem> given, const FrictionSettings &chosen,
+                  bool keeps_slip = false);
    FrictionSystem(const FrictionSystem &) = delete;
 
    const std::shared_ptr<const ReducedProblem> shared; ///< with others who solve it
