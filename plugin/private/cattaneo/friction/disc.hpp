@@ -16,7 +16,7 @@ struct Increment;
 
     The directions change from step to step, and with them a part of each equation. A step is
     solved by iterations in which the factor of an earlier step of the same increment stands for
-    the equations (GMRES, Saad and Schultz 1986); where these do not end soon, the equations are
+    the equations (GMRES, [Saad 1986]); where these do not end soon, the equations are
     factored. */
 class DiscEquations
 {
