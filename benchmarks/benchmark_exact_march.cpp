@@ -52,8 +52,7 @@ bool compare(const char *name, const ReducedProblem &problem, const LoadHistory 
    FrictionSolver solver(problem);
    const Run exact = run(solver, history, Stepping::exact, 1);
    std::printf("%s: %d nodes, exact path of %ld changes of state in %.3f s\n", name,
-               static_cast<int>(problem.nodes()), exact.report.events,
-               exact.report.seconds);
+               static_cast<int>(problem.nodes()), exact.report.events, exact.report.seconds);
    std::printf("   %10s %12s %14s %18s\n", "increments", "time/exact", "error of slip",
                "of dissipation");
    bool complete = exact.complete;

@@ -5,8 +5,8 @@
 #include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/exact_path.hpp>
-#include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/free_bodies.hpp>
+#include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cstdio>

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cattaneo/friction/critical_friction.hpp>
-#include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/free_bodies.hpp>
+#include <cattaneo/friction/march.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/wear/worn_out.hpp>

@@ -5,8 +5,8 @@
 #include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
-#include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/free_bodies.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/input_error.hpp>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Statements that were wrong once: each a small problem with its answer by hand.
 
 #include <algorithm>
-#include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/free_bodies.hpp>
+#include <cattaneo/friction/march.hpp>
 #include <gtest/gtest.h>
 
 namespace

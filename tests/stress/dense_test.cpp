@@ -7,8 +7,8 @@
 #include "outcomes.hpp"
 #include "random_problem.hpp"
 
-#include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/free_bodies.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
 #include <gtest/gtest.h>
 
 namespace

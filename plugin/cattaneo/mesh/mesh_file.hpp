@@ -42,10 +42,13 @@ struct MeshNames
    bool axisymmetric = false;           ///< elements of a deck
    /// Cards of a deck that are not read: "*BOUNDARY, *CLOAD, *STEP".
    std::string passed_over;
+   /// Elastic constants of a material of a deck, both 0 where it is not isotropic, or changes
+   /// with temperature.
    struct DeckMaterial
    {
-      std::string name;
-      double young = 0, poisson = 0; ///< both 0: it is not isotropic, or changes
+      std::string name;   ///< in capitals
+      double young = 0;   ///< Young's modulus, in the deck's units
+      double poisson = 0; ///< Poisson's ratio
    };
    std::vector<DeckMaterial> materials;  ///< of a deck's sections: attributes 1, 2, …
    std::set<std::string> plane_elements; ///< CPS, CPE: of a deck's sections
