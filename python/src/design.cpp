@@ -334,13 +334,14 @@ void bind_report(nb::module_ &m)
    m.def(
       "design",
       [](const Wanted &problem, Numbers start, DesignSettings settings,
-         const ProgressLike &progress, const StopLike &stop)
+         const ProgressLike &progress, const StopLike &stop, const nb::kwargs &members)
       {
+         set_members(settings, members);
          return found(problem, vector_or_number(start, "start", problem.problem.low.size()),
                       std::move(settings), progress, stop);
       },
       arg("problem"), arg("start"), nb::kw_only(), arg("settings") = DesignSettings(),
-      arg("progress") = false, arg("stop") = nb::none(),
+      arg("progress") = false, arg("stop") = nb::none(), arg("members"),
       "Finds the variables that serve the goal, from a start within bounds and limits: an "
       "optimum in its neighbourhood, contact is not convex.\n\n"
       "Ctrl-C, `stop` and `progress` "

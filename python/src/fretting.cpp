@@ -358,15 +358,16 @@ void bind_criteria(nb::module_ &m)
    m.def(
       "critical_plane",
       [](const std::string &criterion, const Self &material, Numbers cycle,
-         const PlaneWeights &weights)
+         PlaneWeights weights, const nb::kwargs &members)
       {
+         set_members(weights, members);
          const CriticalPlane plane =
             critical_plane(chosen<PlaneCriterion>(criterion, "criterion"),
                            matrix(cycle, "cycle", -1, 4), material, weights);
          return std::pair(plane.value, plane.angle);
       },
       arg("criterion"), arg("material"), arg("cycle"), nb::kw_only(),
-      arg("weights") = PlaneWeights(),
+      arg("weights") = PlaneWeights(), arg("members"),
       "Largest value of 'findley', 'smith_watson_topper' or 'fatemi_socie' over the planes "
       "through a point, and the angle of that plane's normal from x. cycle: a row an instant, "
       "columns σ_xx, σ_yy, σ_zz, τ_xy in MPa.");
@@ -414,8 +415,10 @@ void bind_criteria(nb::module_ &m)
       "assess",
       [](const Edge &edge, const Self &material, double stress_ratio,
          std::optional<double> bulk_stress, double stress_gradient, bool plane_stress,
-         double half_width, double rounded_width, const FrettingSettings &settings)
+         double half_width, double rounded_width, FrettingSettings settings,
+         const nb::kwargs &members)
       {
+         set_members(settings, members);
          FrettingProblem problem;
          problem.crack = {edge, finite(stress_ratio, "stress_ratio"),
                           finite(bulk_stress.value_or(0), "bulk_stress"),
@@ -430,7 +433,8 @@ void bind_criteria(nb::module_ &m)
       arg("edge"), arg("material"), nb::kw_only(), arg("stress_ratio") = -1.0,
       arg("bulk_stress") = nb::none(), arg("stress_gradient") = 0.0,
       arg("plane_stress") = false, arg("half_width") = 0.0, arg("rounded_width") = 0.0,
-      arg("settings") = FrettingSettings(), "Judges a contact edge at peak load; N, mm, MPa.");
+      arg("settings") = FrettingSettings(), arg("members"),
+      "Judges a contact edge at peak load; N, mm, MPa.");
    m.def(
       "threshold_ordinate",
       [](const std::string &criterion, double friction, double abscissa, double stress_ratio)

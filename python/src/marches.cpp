@@ -62,8 +62,10 @@ March march_of(const ReducedProblem &problem)
 
 March march_from(const ReducedProblem &problem, const History &history,
                  const ContactState *state, MarchSettings settings, bool keep_states,
-                 const Observer &observer, const ProgressLike &progress, const StopLike &stop)
+                 const Observer &observer, const ProgressLike &progress, const StopLike &stop,
+                 const nb::kwargs &members)
 {
+   set_members(settings, members);
    March march = march_of(problem);
    march.state = state_or_rest(problem, state);
    const LoadHistory loads = history_from(problem, history, march.state);
@@ -440,6 +442,7 @@ void bind_marches(nb::module_ &m)
       "march", &march_from, arg("problem"), arg("history"), arg("state") = nb::none(),
       nb::kw_only(), arg("settings") = told, arg("keep_states") = false,
       arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
+      arg("members"),
       "Marches a contact along a load history, from rest or from `state`, which stays as it "
       "is.\n\n"
       "history: points, [{}, {'P': 1}, {'Q': 0.2}], the first of which is where the state "
@@ -449,7 +452,8 @@ void bind_marches(nb::module_ &m)
       "it "
       "came to.\n"
       "settings: how it is marched. Those that are given say whether the error of the loss is "
-      "asked for.\n"
+      "asked for. Members may be given by their names alone, as increments=40, also those of "
+      "settings within.\n"
       "keep_states: keeps the state of every increment. observer: is called with each.\n"
       "progress: True shows a line on stderr; a function is called with Progress. Other "
       "threads run meanwhile; Ctrl-C raises KeyboardInterrupt, and `stop`, a threading.Event, "

@@ -145,9 +145,12 @@ void bind_edges(nb::module_ &m)
            });
    m.def(
       "fit_edge",
-      [](const EdgeTractions &tractions, const FitSettings &settings)
-      { return fit_edge(tractions, settings); },
-      arg("tractions"), nb::kw_only(), arg("settings") = FitSettings(),
+      [](const EdgeTractions &tractions, FitSettings settings, const nb::kwargs &members)
+      {
+         set_members(settings, members);
+         return fit_edge(tractions, settings);
+      },
+      arg("tractions"), nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
       "K_N and K_T by least squares.");
 
    nb::class_<ContactEdge>(m, "ContactEdge", "One end of a stretch of contact.")
@@ -181,13 +184,14 @@ void bind_edges(nb::module_ &m)
    m.def(
       "contact_edges",
       [](const ReducedProblem &problem, const ContactState &pressed, const ContactState &loaded,
-         const std::string &cracked, const FitSettings &settings)
+         const std::string &cracked, FitSettings settings, const nb::kwargs &members)
       {
+         set_members(settings, members);
          return contact_edges(problem, checked(problem, pressed), checked(problem, loaded),
                               cracked_body(cracked), settings);
       },
       arg("problem"), arg("pressed"), arg("loaded"), arg("cracked") = "second", nb::kw_only(),
-      arg("settings") = FitSettings(),
+      arg("settings") = FitSettings(), arg("members"),
       "K_N, K_T and the slip zone at each end of each stretch of contact.\n\npressed: after "
       "the "
       "normal load alone. loaded: at peak load. cracked: 'first' or 'second' body.");

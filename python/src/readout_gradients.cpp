@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "readout.hpp"
 #include "sensitivity.hpp"
+#include "settings.hpp"
 #include "watch.hpp"
 #include <cattaneo/design/edge_response.hpp>
 #include <cattaneo/design/limit_gradient.hpp>
@@ -30,13 +31,15 @@ void bind_edge_responses(nb::module_ &m)
    m.def(
       "edge_intensities",
       [](const ReducedProblem &problem, const Trace &trace, std::size_t state,
-         const ContactEdge &edge, const std::string &cracked, const FitSettings &settings)
+         const ContactEdge &edge, const std::string &cracked, FitSettings settings,
+         const nb::kwargs &members)
       {
+         set_members(settings, members);
          return edge_intensities(problem, trace_of(problem, trace), state, edge,
                                  cracked_body(cracked), settings);
       },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("cracked") = "second",
-      nb::kw_only(), arg("settings") = FitSettings(),
+      nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
       "Those of readout.fit_edge() from the tractions of a state; the place of the edge and "
       "the "
       "windows are those of now, and stay. K_T is that of a stuck contact: of trace_stuck().");
@@ -48,13 +51,14 @@ void bind_edge_responses(nb::module_ &m)
       "corner_intensities",
       [](const ReducedProblem &problem, const Trace &trace, std::size_t state,
          const ContactEdge &edge, const fretting::CornerModes &modes,
-         const std::string &cracked, const FitSettings &settings)
+         const std::string &cracked, FitSettings settings, const nb::kwargs &members)
       {
+         set_members(settings, members);
          return corner_intensities(problem, trace_of(problem, trace), state, edge, modes,
                                    cracked_body(cracked), settings);
       },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("modes"),
-      arg("cracked") = "second", nb::kw_only(), arg("settings") = FitSettings(),
+      arg("cracked") = "second", nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
       "Those of fretting.fit_corner() at an edge that is complete, of trace_stuck().");
    nb::class_<MovingEdge>(m, "MovingEdge", "An edge that moves, and the pressure's K_N there.")
       .def_ro("position", &MovingEdge::position, "arc length")
@@ -62,10 +66,13 @@ void bind_edge_responses(nb::module_ &m)
    m.def(
       "moving_edge",
       [](const ReducedProblem &problem, const Trace &trace, std::size_t state,
-         const ContactEdge &edge, const FitSettings &settings)
-      { return moving_edge(problem, trace_of(problem, trace), state, edge, settings); },
+         const ContactEdge &edge, FitSettings settings, const nb::kwargs &members)
+      {
+         set_members(settings, members);
+         return moving_edge(problem, trace_of(problem, trace), state, edge, settings);
+      },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), nb::kw_only(),
-      arg("settings") = FitSettings(),
+      arg("settings") = FitSettings(), arg("members"),
       "Both of one fit to the square of the pressure; for an edge that is not complete.");
    m.def(
       "trace_stuck",

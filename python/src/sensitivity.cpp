@@ -1,4 +1,5 @@
 #include "sensitivity.hpp"
+#include "settings.hpp"
 
 #include "arrays.hpp"
 #include "marches.hpp"
@@ -220,8 +221,10 @@ void bind_trace(nb::module_ &m)
    m.def(
       "trace_march",
       [](const ReducedProblem &problem, const History &history, const ContactState *state,
-         MarchSettings settings, const ProgressLike &progress, const StopLike &stop)
+         MarchSettings settings, const ProgressLike &progress, const StopLike &stop,
+         const nb::kwargs &members)
       {
+         set_members(settings, members);
          const ReducedProblem copy = problem;
          ContactState from = state_or_rest(copy, state);
          const LoadHistory loads = history_from(copy, history, from);
@@ -234,13 +237,14 @@ void bind_trace(nb::module_ &m)
       },
       arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
       arg("settings") = MarchSettings(), arg("progress") = false, arg("stop") = nb::none(),
-      "march(), keeping all its states.");
+      arg("members"), "march(), keeping all its states.");
    m.def(
       "trace_wear",
       [](const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
          double cycles, const WearState *state, WearSettings settings,
-         const ProgressLike &progress, const StopLike &stop)
+         const ProgressLike &progress, const StopLike &stop, const nb::kwargs &members)
       {
+         set_members(settings, members);
          const ReducedProblem copy = problem;
          const WearLaw by = law;
          const LoadHistory loads = history;
@@ -256,7 +260,7 @@ void bind_trace(nb::module_ &m)
       },
       arg("problem"), arg("law"), arg("history"), arg("cycles"), arg("state") = nb::none(),
       nb::kw_only(), arg("settings") = WearSettings(), arg("progress") = false,
-      arg("stop") = nb::none(),
+      arg("stop") = nb::none(), arg("members"),
       "wear.wear() with every cycle marched, keeping the states of all increments; times go on "
       "from cycle to cycle.");
    m.def(

@@ -65,6 +65,29 @@ void SettingsClass::set(void *settings, const nb::dict &values) const
    }
 }
 
+bool SettingsClass::set_any(void *settings, const std::string &name, nb::handle value) const
+{
+   if (const SettingsMember *member = find(name))
+   {
+      member->set(settings, value);
+      return true;
+   }
+   for (const SettingsMember &each : members_)
+   {
+      if (each.set_within(settings, name, value)) { return true; }
+   }
+   return false;
+}
+
+void SettingsClass::set_all(void *settings, const nb::kwargs &values) const
+{
+   for (const auto &[key, value] : values)
+   {
+      const auto name = nb::cast<std::string>(key);
+      if (!set_any(settings, name, value)) { throw nb::type_error(unknown(name).c_str()); }
+   }
+}
+
 nb::dict SettingsClass::values(nb::handle self) const
 {
    nb::dict all;

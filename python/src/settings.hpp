@@ -119,6 +119,8 @@ struct SettingsMember
    std::function<nb::object(void *settings, nb::handle owner)> get;
    /// TypeError or InputError for what it cannot be, which is then not taken.
    std::function<void(void *settings, nb::handle value)> set;
+   /// Sets a member of the settings that this one is, if it is and they have it.
+   std::function<bool(void *settings, const std::string &name, nb::handle value)> set_within;
    std::string value = ""; ///< of the defaults, as it is written
 };
 
@@ -130,6 +132,11 @@ public:
 
    /// TypeError for a name that no member has.
    void set(void *settings, const nb::dict &values) const;
+   /// A member by its name, or one of settings within; false if there is none.
+   bool set_any(void *settings, const std::string &name, nb::handle value) const;
+   /// Members by their names, also those of settings within; TypeError for a name that none
+   /// has.
+   void set_all(void *settings, const nb::kwargs &values) const;
    /// Attributes, those that are misspelt, printing and pickling; all but how one is made.
    void define(const std::shared_ptr<const SettingsClass> &self) const;
    /// Of its constructor.
@@ -147,6 +154,21 @@ private:
    std::string name_;
    std::vector<SettingsMember> members_;
 };
+
+/// The class of settings T, once it is bound.
+template <class T>
+std::shared_ptr<const SettingsClass> &settings_class()
+{
+   static std::shared_ptr<const SettingsClass> bound;
+   return bound;
+}
+
+/// Sets members that a call gives by their names beside its settings.
+template <class T>
+void set_members(T &settings, const nb::kwargs &members)
+{
+   settings_class<T>()->set_all(&settings, members);
+}
 
 template <class T>
 class Settings
@@ -173,7 +195,16 @@ public:
          check(changed, 0);
          *static_cast<T *>(settings) = std::move(changed);
       };
-      members_.push_back({name, Kind<Value>::name(), doc, get, set});
+      const auto set_within = [member](void *settings, const std::string &of, nb::handle value)
+      {
+         if constexpr (nb::detail::is_base_caster_v<nb::detail::make_caster<Value>>)
+         {
+            const auto &within = settings_class<Value>();
+            return within && within->set_any(&(static_cast<T *>(settings)->*member), of, value);
+         }
+         else { return false; }
+      };
+      members_.push_back({name, Kind<Value>::name(), doc, get, set, set_within});
       return *this;
    }
 
@@ -183,6 +214,7 @@ public:
       T defaults;
       const auto all = std::make_shared<const SettingsClass>(class_, members_, &defaults);
       all->define(all);
+      settings_class<T>() = all;
       const auto made = [all](T *self, const nb::dict &values)
       {
          T settings;

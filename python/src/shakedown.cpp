@@ -182,24 +182,27 @@ void bind_limits(nb::module_ &m)
    told.every_start = true;
    m.def(
       "load_limit",
-      [](const LimitProblem &problem, const LimitSettings &settings, const LimitReport *start,
-         const ProgressLike &progress, const StopLike &stop)
+      [](const LimitProblem &problem, LimitSettings settings, const LimitReport *start,
+         const ProgressLike &progress, const StopLike &stop, const nb::kwargs &members)
       {
+         set_members(settings, members);
          return watched("load_limit", problem, settings, start, progress, stop,
                         [](const LimitProblem &of, const LimitSettings &with)
                         { return load_limit(of, with); });
       },
       arg("problem"), nb::kw_only(), arg("settings") = told, arg("start") = nb::none(),
-      arg("progress") = false, arg("stop") = nb::none(),
+      arg("progress") = false, arg("stop") = nb::none(), arg("members"),
       "The largest load factor under which some slip keeps all nodes stuck and closed, for the "
       "friction of the problem. settings: those that are given say whether, of a coupled "
       "contact, λ1 is asked for too, below which every start shakes down. start: an earlier "
       "report of a sweep.");
    m.def(
       "friction_limit",
-      [](const LimitProblem &problem, double load_factor, const LimitSettings &settings,
-         const LimitReport *start, const ProgressLike &progress, const StopLike &stop)
+      [](const LimitProblem &problem, double load_factor, LimitSettings settings,
+         const LimitReport *start, const ProgressLike &progress, const StopLike &stop,
+         const nb::kwargs &members)
       {
+         set_members(settings, members);
          const double factor = finite(load_factor, "load_factor");
          return watched("friction_limit", problem, settings, start, progress, stop,
                         [factor](const LimitProblem &of, const LimitSettings &with)
@@ -207,6 +210,7 @@ void bind_limits(nb::module_ &m)
       },
       arg("problem"), arg("load_factor"), nb::kw_only(), arg("settings") = settings,
       arg("start") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
+      arg("members"),
       "The smallest coefficient, the same at all nodes, at which the contact shakes down.");
 
    nb::class_<LowerLimitReport>(
@@ -226,15 +230,16 @@ void bind_limits(nb::module_ &m)
    m.def(
       "lower_limit",
       [](const LimitProblem &problem, const LimitReport &upper, Numbers apart,
-         LimitSettings settings)
+         LimitSettings settings, const nb::kwargs &members)
       {
+         set_members(settings, members);
          const NodeList nodes =
             apart.is_none() ? NodeList() : node_list(problem.reduced, apart, "apart");
          return one_at_a_time([&, copy = problem, limit = upper]
                               { return lower_limit(copy, limit, settings, nodes); });
       },
       arg("problem"), arg("upper"), nb::kw_only(), arg("apart") = nb::none(),
-      arg("settings") = settings,
+      arg("settings") = settings, arg("members"),
       "upper: the report of load_limit. apart: nodes without which slip cannot go on for ever "
       "below the value, if the contact stays closed.");
 }
@@ -349,8 +354,12 @@ void bind_estimates(nb::module_ &m)
    m.def(
       "transient",
       [](const LimitProblem &problem, double load_factor, Numbers start,
-         const LimitReport *limit, TransientSettings settings)
+         std::optional<int> cycles, const LimitReport *limit, TransientSettings settings,
+         const nb::kwargs &members)
       {
+         set_members(settings, members);
+         if (cycles) { settings.cycles = *cycles; }
+         settings.validate();
          const LimitProblem copy = problem;
          const double factor = finite(load_factor, "load_factor");
          const Eigen::VectorXd slip = vector_or_number(start, "start", copy.reduced.slips());
@@ -367,8 +376,9 @@ void bind_estimates(nb::module_ &m)
                return transient(solver, copy, factor, slip, settings);
             });
       },
-      arg("problem"), arg("load_factor"), arg("start") = 0.0, arg("limit") = nb::none(),
-      nb::kw_only(), arg("settings") = TransientSettings(),
+      arg("problem"), arg("load_factor"), arg("start") = 0.0, arg("cycles") = nb::none(),
+      arg("limit") = nb::none(), nb::kw_only(), arg("settings") = TransientSettings(),
+      arg("members"),
       "Marches the cycle from the slip `start`: does it shake down, and how fast? limit: the "
       "report of load_limit. Above its upper bound, if that is proven, the verdict is never "
       "'shaken down': a slip that seems to have ended 'moves only at nodes that open' if nodes "

@@ -283,8 +283,10 @@ void bind_report(nb::module_ &m)
 
 Wear worn(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
           double cycles, const WearState *state, WearSettings settings,
-          const Observer &observer, const ProgressLike &progress, const StopLike &stop)
+          const Observer &observer, const ProgressLike &progress, const StopLike &stop,
+          const nb::kwargs &members)
 {
+   set_members(settings, members);
    const ReducedProblem copy = problem;
    const WearLaw by = law;
    const LoadHistory loads = history;
@@ -317,6 +319,7 @@ void bind_wear_march(nb::module_ &m)
       "wear", &worn, arg("problem"), arg("law"), arg("history"), arg("cycles"),
       arg("state") = nb::none(), nb::kw_only(), arg("settings") = WearSettings(),
       arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
+      arg("members"),
       "Wears a contact: marches the opening part of a history, then its cycle until `cycles` "
       "are over, and takes off what each cycle wears. `state` stays as it is.\n\n"
       "history: with a cycle (cycle_start); how often it repeats is not asked.\n"
@@ -373,8 +376,10 @@ void bind_wear_march(nb::module_ &m)
    m.def(
       "worn_out",
       [](const ReducedProblem &problem, const LoadHistory &history, const ContactState *contact,
-         MarchSettings settings, const ProgressLike &progress, const StopLike &stop)
+         MarchSettings settings, const ProgressLike &progress, const StopLike &stop,
+         const nb::kwargs &members)
       {
+         set_members(settings, members);
          const ReducedProblem copy = problem;
          const LoadHistory loads = history;
          const ContactState from = state_or_rest(copy, contact);
@@ -392,6 +397,7 @@ void bind_wear_march(nb::module_ &m)
       },
       arg("problem"), arg("history"), arg("contact") = nb::none(), nb::kw_only(),
       arg("settings") = MarchSettings(), arg("progress") = false, arg("stop") = nb::none(),
+      arg("members"),
       "A fully worn state of partial slip, without the cycles that lead there: nodes that "
       "slip carry nothing, nodes that stick stay where they are, depth is what overlaps at any "
       "point of the cycle.\n\n"

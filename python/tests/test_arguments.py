@@ -167,9 +167,9 @@ def test_what_is_of_another_kind():
         lambda: shakedown.load_limit(problem=None, tol=1),
         lambda: fretting.pressure(fretting.Edge(1, 0, 0.5)),
     ):
-        with pytest.raises(TypeError, match="incompatible function arguments|unsupported operand"):
+        with pytest.raises(TypeError, match="incompatible function arguments|unsupported operand|has no '"):
             call()
-    with pytest.raises(TypeError, match="history: cattaneo._core.LoadHistory .*settings: cattaneo._core.MarchSettings"):
+    with pytest.raises(TypeError, match="MarchSettings has no 'incremnts', it has 'friction', 'increments', "):
         cattaneo.march(p, [{}, {"P": 1}], incremnts=3)
 
 

@@ -148,3 +148,25 @@ def test_settings_are_heard():
     assert cattaneo.march(problem, points, settings=settings).loss_error > 0
     settings.keep_increments = False
     assert len(cattaneo.march(problem, points, settings=settings).time) == 0
+
+
+def test_members_may_be_given_by_their_names_alone():
+    """A call takes members of its settings, and of settings within, as keywords; they are the same as settings made of them."""
+    problem = cattaneo.load_reduced_problem(ROOT / "problems/hertz.json")
+    history = cattaneo.LoadHistory.through(problem, [{}, {"P": 1}, {"Q": 0.2}, {"Q": -0.2}, {"Q": 0.2}], cycle_start=2)
+    one = cattaneo.march(problem, history, increments=7, stepping="fixed", tolerance=1e-10)
+    friction = cattaneo.FrictionSettings(tolerance=1e-10)
+    other = cattaneo.march(problem, history, settings=cattaneo.MarchSettings(increments=7, stepping="fixed", friction=friction, loss_error=True))
+    assert one.state.dissipation == other.state.dissipation > 0
+    assert one.loss_error == other.loss_error
+    law = wear.WearLaw.uniform(problem, 1e-6)
+    worn = wear.wear(problem, law, history, 20, update="piece", increments=3, stepping="fixed")
+    march = cattaneo.MarchSettings(increments=3, stepping="fixed")
+    same = wear.wear(problem, law, history, 20, settings=wear.WearSettings(update="piece", march=march))
+    assert worn.volume[-1] == same.volume[-1] > 0
+    # What both are given, the name alone says.
+    assert cattaneo.march(problem, history, settings=march, increments=7).state.dissipation == one.state.dissipation
+    with pytest.raises(TypeError, match=r"MarchSettings has no 'incremnts', it has 'friction', 'increments'"):
+        cattaneo.march(problem, history, incremnts=7)
+    with pytest.raises(cattaneo.InputError, match="increments"):
+        cattaneo.march(problem, history, increments=0)
