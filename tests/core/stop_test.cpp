@@ -298,6 +298,7 @@ TEST(Progress, GrowsFromTheStartOfTheMarchToItsEnd)
    std::vector<Progress> told;
    MarchSettings settings;
    settings.stop_at_steady_state = false;
+   settings.every_event = true; // each is told of
    settings.monitor.interval = 0;
    settings.monitor.progress = [&](const Progress &progress) { told.push_back(progress); };
    ContactState state = ContactState::virgin(problem);
