@@ -16,15 +16,12 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
    VectorXd x = VectorXd::Zero(G.cols());
    VectorXd r = g;
    // The residual may be tiny: at right angles to the edges used for its own size.
-   auto polished = [&]() -> NonnegativeFit
+   const auto polish = [&]
    {
       r = g - G * x;
-      if (!used.empty())
-      {
-         const MatrixXd active = G(Eigen::all, used);
-         r -= active * least_squares(active, r);
-      }
-      return {x, r};
+      if (used.empty()) { return; }
+      const MatrixXd active = G(Eigen::all, used);
+      r -= active * least_squares(active, r);
    };
    for (Index step = 0; step < 30 * G.rows() + 30; ++step)
    {
@@ -63,13 +60,18 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
             if (trial[k] > 0 || value > 1e-14 * x.maxCoeff()) { kept.push_back(used[k]); }
             else { value = 0; }
          }
-         if (kept.size() == used.size()) { return polished(); } // no progress: round-off
+         if (kept.size() == used.size()) // no progress: round-off
+         {
+            polish();
+            return {x, r};
+         }
          used = kept;
          if (used.empty()) { break; }
       }
-      r = g - G * x;
+      // Else round-off would ask for edges that are at right angles to it already.
+      polish();
    }
-   return polished();
+   return {x, r};
 }
 
 std::optional<VectorXd> least_distance(const MatrixXd &G, const VectorXd &h)
