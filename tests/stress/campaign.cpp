@@ -35,6 +35,16 @@ double stated(const Answer &answer)
    return std::max({answer.residual_normal, answer.residual_tangential, answer.round_off});
 }
 
+/// By how much an answer may break a law, over its largest force. Its forces were formed in
+/// double and differ from the true ones by its round-off at most; its residual was found with
+/// these. A bound of friction f p differs by f times as much besides.
+template <class Answer>
+double may_break(const Answer &answer, double friction)
+{
+   return std::max(answer.residual_normal, answer.residual_tangential) +
+          (1 + friction) * answer.round_off;
+}
+
 /// The march that is being run, for the case that it does not end.
 char running[200];
 void hangs(int)
@@ -151,8 +161,10 @@ private:
       else if (size > least->size) *least = {kind, size, label, stepping, what, *made_};
    }
 
-   void accepted(const ContactState &state, double accuracy, const double *loss)
+   template <class Answer>
+   void accepted(const ContactState &state, const Answer &answer, const double *loss)
    {
+      const double accuracy = stated(answer);
       ++row_->accepted;
       scale_ = std::max(scale_, laws_->scale(u_, state.multipliers));
       const Real scale = std::max(scale_, Real(1e-4000L));
@@ -160,6 +172,9 @@ private:
       Violation wrong;
       const Violation v = laws_->judge(u, u_, state, &wrong);
       const double worst = v.size / scale;
+      const Real leave =
+         std::max(Real(1e-9) * scale,
+                  Real(may_break(answer, double(laws_->f.maxCoeff())) * state.peak_force));
       char text[200];
       std::snprintf(text, sizeof text, "%s at node %d, t %.6g, stated %.1e", v.law, int(v.node),
                     state.time, accuracy);
@@ -179,9 +194,8 @@ private:
          std::puts("");
       }
       row_->worst = std::max(row_->worst, accuracy > 1e-9 ? 0 : worst);
-      // The scales of the two may differ, by less than two.
-      if (worst > std::max(1e-9, 2 * accuracy)) note(violated, worst, text);
-      else if (wrong.size / scale > std::max(1e-9, 2 * accuracy))
+      if (v.size > leave) note(violated, worst, text);
+      else if (wrong.size > leave)
       {
          std::snprintf(text, sizeof text, "%s at node %d, t %.6g, stated %.1e", wrong.law,
                        int(wrong.node), state.time, accuracy);
@@ -286,7 +300,7 @@ private:
              report.status == FrictionStatus::not_unique)
          {
             ++row_->methods[report.found_by];
-            accepted(state, stated(report), nullptr);
+            accepted(state, report, nullptr);
          }
          else
          {
@@ -315,7 +329,7 @@ private:
                   ++row_->increments;
                   ++row_->methods[record.found_by];
                   timed(since(last), now.time);
-                  accepted(now, stated(record), &record.dissipation);
+                  accepted(now, record, &record.dissipation);
                   last = Clock::now();
                });
       timed(since(last), report.time);
