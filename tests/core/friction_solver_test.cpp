@@ -199,33 +199,32 @@ TEST(FrictionSolver, ThreeMethodsAgreeOnRandomProblems)
    }
 }
 
-TEST(FrictionSolver, PathAloneAgreesWithActiveSet)
+TEST(FrictionSolver, LemkeAloneAgreesWithActiveSet)
 {
-   FrictionSettings path_alone; // no sweeps, and Newton only to check what the path found
-   path_alone.sweeps = 0;
-   path_alone.max_attempts = 1;
-   path_alone.max_newton = 1;
+   FrictionSettings lemke_alone; // no sweeps, and Newton only to check what Lemke found
+   lemke_alone.sweeps = 0;
+   lemke_alone.max_newton = 1;
    std::mt19937 random(4);
    long pivots = 0;
    for (int k = 0; k < 300; ++k)
    {
       ReducedProblem problem = random_problem(2 + k % 29, 3.0 * k / 299, 0.2, random);
       if (k % 4 == 0) { problem.friction[k % problem.nodes()] = 0; }
-      FrictionSolver solver(problem), path(problem, path_alone);
+      FrictionSolver solver(problem), lemke(problem, lemke_alone);
       ContactState state = ContactState::virgin(problem);
       for (const Vector2d &loads :
            {Vector2d(1, 0), Vector2d(1, 0.7), Vector2d(1, -0.6), Vector2d(0.1, 0.2)})
       {
          ContactState other = state;
          const VectorXd v_old = state.v;
-         const IncrementReport report = path.solve(other, loads);
+         const IncrementReport report = lemke.solve(other, loads);
          ASSERT_EQ(report.status, FrictionStatus::converged) << "problem " << k;
          EXPECT_LT(violation(problem, other, v_old), 1e-10) << "problem " << k;
          ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged);
          EXPECT_LT((other.v - state.v).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;
          EXPECT_LT((other.w - state.w).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;
       }
-      pivots += path.counters().pivots;
+      pivots += lemke.counters().pivots;
    }
    EXPECT_GT(pivots, 10000);
 }

@@ -1,4 +1,5 @@
-#include <algorithm>
+// Newton's steps on the states of all nodes.
+
 #include <cattaneo/friction/complementarity.hpp>
 #include <cattaneo/friction/disc.hpp>
 #include <cattaneo/friction/methods.hpp>
@@ -9,6 +10,36 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace
+{
+
+/// A node goes to the piece of its bound at its pressure, unless that is on the present piece
+/// but for `tiny`. True if it slips on another one then.
+bool changes_piece(Increment &at, Index i, double tiny)
+{
+   const FrictionBound &bound = at.system.bound[i];
+   if (at.piece.size() == 0 || !bound.bends()) { return false; }
+   double &piece = at.piece[i];
+   const double p = std::max(at.F[at.system.m(i)], 0.0);
+   if (p >= bound.bend(piece, -1) - tiny && p <= bound.bend(piece, 1) + tiny) { return false; }
+   piece = p;
+   return slips(at.status[i]);
+}
+
+/// States and pieces, as numbers that are the same where these are.
+std::vector<double> states_and_pieces(const Increment &at)
+{
+   std::vector<double> key;
+   for (const NodeState state : at.status) { key.push_back(static_cast<double>(state)); }
+   for (Index i = 0; i < at.piece.size(); ++i)
+   {
+      key.push_back(at.system.bound[i].bend(at.piece[i], -1));
+   }
+   return key;
+}
+
+} // namespace
+
 Index ask_for_states(Increment &at)
 {
    // Violations that change nothing.
@@ -17,16 +48,18 @@ Index ask_for_states(Increment &at)
    Index changed = 0;
    for (Index i = 0; i < at.system.n; ++i)
    {
+      const double tiny_normal = tiny[at.system.m(i)];
       const ContactNode node = at.node(i);
       const NodeState next =
-         wanted_state(node, at.status[i], tiny[at.system.m(i)], at.round_off_along(tiny, i));
+         wanted_state(node, at.status[i], tiny_normal, at.round_off_along(tiny, i));
       // Without friction anywhere a node keeps this name, and has no tangential unknowns.
       if (next == NodeState::slip && at.system.disc())
       {
          at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
       }
-      changed += next != at.status[i];
+      const bool other_state = next != at.status[i];
       at.status[i] = next;
+      if (changes_piece(at, i, tiny_normal) || other_state) { ++changed; }
    }
    return changed;
 }
@@ -34,11 +67,11 @@ Index ask_for_states(Increment &at)
 bool newton(Increment &at)
 {
    if (at.system.disc()) { return newton_in_the_disc(at); }
-   // Each step may cost a factor, of order n³: where a few nodes of many go on changing the
-   // path takes them one by one at n² each.
-   return newton_on_states(
-             at.status, at.system.settings.max_newton, at.system.n / 50,
-             [&] { return solve_for_states(at); }, [&] { return ask_for_states(at); }) &&
+   // Each step may cost a factor, of order n³: where a few nodes of many go on changing,
+   // Lemke's method takes them one by one at n² each.
+   return newton_on_states([&] { return states_and_pieces(at); }, at.system.settings.max_newton,
+                           at.system.n / 50, [&] { return solve_for_states(at); },
+                           [&] { return ask_for_states(at); }) &&
           ends_with_least_motion(at);
 }
 
@@ -51,22 +84,18 @@ bool polished(Increment &at)
    return ends_with_least_motion(at);
 }
 
+bool newton_after_sweeps(Increment &at, int sweeps)
+{
+   at.go_back();
+   for (int k = 0; k < sweeps; ++k) { sweep(at); }
+   at.take_pieces();
+   at.swept = {at.u, at.status};
+   return newton(at);
+}
+
 Search active_set(Increment &at)
 {
-   const FrictionSettings &settings = at.system.settings;
-   // In the disc Newton's steps are as many from the state at the start as from a swept one.
-   if (at.system.disc() && newton(at)) { return Search::found; }
-   at.go_back();
-   int sweeps = settings.sweeps;
-   for (int k = 0; k < settings.max_attempts; ++k)
-   {
-      if (k > 0) { at.go_back(); }
-      for (int j = 0; j < sweeps; ++j) { sweep(at); }
-      at.swept = {at.u, at.status};
-      if (newton(at)) { return Search::found; }
-      sweeps = std::max(4, 2 * sweeps);
-   }
-   return Search::not_here;
+   return newton_after_sweeps(at, at.system.settings.sweeps) ? Search::found : Search::not_here;
 }
 
 } // namespace cattaneo

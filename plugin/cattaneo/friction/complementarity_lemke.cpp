@@ -1,5 +1,6 @@
 #include <cattaneo/friction/complementarity.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -27,12 +28,12 @@ bool let_slip(StateEquations &equations, const VectorXd &x)
    return equations.set(states);
 }
 
-/// The path of solutions from a start of our choice to the problem's b, see solve_by_path().
-class Path
+/// The way of solutions from a start of our choice to the problem's b, see solve_by_lemke().
+class Lemke
 {
 public:
-   Path(StateEquations &equations, const ComplementarityProblem &problem, const VectorXd &x,
-        const VectorXd &F, double slack, unsigned seed);
+   Lemke(StateEquations &equations, const ComplementarityProblem &problem, const VectorXd &x,
+         const VectorXd &F, double slack, unsigned seed);
 
    bool follow(ComplementarityReport &report);
 
@@ -44,92 +45,139 @@ private:
       pressure, ///< p >= 0, with x_n
       forward,  ///< q + f p + θ h >= 0, with forward slip
       backward, ///< f p - q + θ h >= 0, with backward slip
-      way       ///< ± x_t >= 0, with one of the two above
+      way,      ///< ± x_t >= 0, with one of the two above
+      below,    ///< p >= where the piece of its bound begins, with the piece below
+      above     ///< p <= where it ends, with the piece above
    };
+   /// Of a bound that bends: the line that holds between two pressures.
+   struct Piece
+   {
+      FrictionBound line;
+      double begin = -infinity, end = infinity;
+   };
+   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
    template <class Visitor>
    void for_each_inequality(Index i, Visitor visit) const;
-   /// The left-hand side, a linear function of x, F and θ.
-   double value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, double theta) const;
+   /// The left-hand side; `one`: 1, or 0 for its rate with x, F and θ.
+   double value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, double theta,
+                double one = 1) const;
+   bool bends(Index i) const { return !bounds_.empty() && bounds_[i].bends(); }
+   void set_out_from(Index i, const std::function<double()> &some);
+   void take_piece(Index i, double p);
    bool exchange(Index i, Kind kind);
+   static Kind partner(Kind kind, double sense);
+   VectorXd intercepts() const;
    bool find_direction();
    bool meets_all(const VectorXd &x, const VectorXd &F);
+   bool go(double direction, double &theta, Index &node, Kind &kind);
 
    StateEquations &equations_;
    const ComplementarityProblem &problem_;
    const Index n_;
    const bool tangential_;
+   const std::vector<FrictionBound> &bounds_; // empty: those of the equations
+   std::vector<Piece> pieces_;                // of these
    /// Sense of slip: of nodes in contact that of their state; nodes in separation have one too
    /// as long as θ h holds them, 0 if it does not let them move.
    VectorXd sense_;
    VectorXd h_;
    VectorXd x_, F_, away_; // b + θ away, θ = 1 at the start
    VectorXd dx_, dF_;      // by dθ
+   bool possible_ = true;  // the equations are not singular with the pieces of the start
 };
 
-Path::Path(StateEquations &equations, const ComplementarityProblem &problem, const VectorXd &x,
-           const VectorXd &F, double slack, unsigned seed)
+Lemke::Lemke(StateEquations &equations, const ComplementarityProblem &problem,
+             const VectorXd &x, const VectorXd &F, double slack, unsigned seed)
    : equations_(equations), problem_(problem), n_(equations.nodes()),
-     tangential_(equations.tangential()), sense_(VectorXd::Zero(n_)), h_(VectorXd::Zero(n_)),
-     x_(x), F_(F)
+     tangential_(equations.tangential()), bounds_(problem.bounds), pieces_(bounds_.size()),
+     sense_(VectorXd::Zero(n_)), h_(VectorXd::Zero(n_)), x_(x), F_(F)
 {
    std::mt19937_64 random(seed);
-   const VectorXd &stiffness = equations.diagonal();
    double largest = std::max(problem.b.cwiseAbs().maxCoeff(), F.cwiseAbs().maxCoeff());
    if (largest == 0) { largest = 1; }
-   auto some = [&]
+   const auto some = [&]
    { return slack * largest * (0.5 + std::ldexp(double(random() >> 11), -53)); };
-   // Every inequality is met with something to spare, every equation exactly.
-   for (Index i = 0; i < n_; ++i)
+   for (Index i = 0; i < n_; ++i) { set_out_from(i, some); }
+   away_ = F_ - problem.b - equations.stiffness() * x_;
+   // The equations know the slopes of the pieces now.
+   const std::vector<NodeState> states = equations.states();
+   possible_ = bounds_.empty() || equations.set(states);
+}
+
+/// Moves x and F of a node so that every inequality is met with something to spare, every
+/// equation exactly.
+void Lemke::set_out_from(Index i, const std::function<double()> &some)
+{
+   const NodeState state = equations_.states()[i];
+   const VectorXd &stiffness = equations_.diagonal();
+   const Index m = equations_.normal_row(i);
+   const Choice choice = problem_.choice[i];
+   // 1. Gap and pressure.
+   if (closed(state)) { x_[m] = 0; }
+   else { F_[m] = 0; }
+   if (choice == Choice::any)
    {
-      const NodeState state = equations.states()[i];
-      const Index m = equations_.normal_row(i);
-      const Choice choice = problem.choice[i];
-      if (closed(state)) { x_[m] = 0; }
-      else { F_[m] = 0; }
+      if (closed(state)) { F_[m] = std::max(F_[m], 0.0) + some(); }
+      else { x_[m] = std::max(x_[m], 0.0) + some() / stiffness[m]; }
+   }
+   if (!tangential_) { return; }
+   if (bends(i)) { take_piece(i, F_[m]); }
+   // 2. A shear beyond the bound, which vanishes on the way.
+   sense_[i] = sense(state);
+   const bool friction_acts = choice == Choice::any && !equations_.smooth(i);
+   if (friction_acts)
+   {
+      h_[i] = some();
+      if (!closed(state)) { sense_[i] = x_[i] >= 0 ? 1 : -1; }
+   }
+   const auto bound = [&](double sense)
+   {
+      const FrictionBound &of = bends(i) ? pieces_[i].line : equations_.bound()[i];
+      return of.line(F_[m], sense) + h_[i];
+   };
+   // 3. Slip and friction.
+   if (state == NodeState::stick)
+   {
+      x_[i] = 0;
       if (choice == Choice::any)
       {
-         if (closed(state)) { F_[m] = std::max(F_[m], 0.0) + some(); }
-         else { x_[m] = std::max(x_[m], 0.0) + some() / stiffness[m]; }
+         F_[i] = std::clamp(F_[i], -0.9 * bound(1), 0.9 * bound(-1));
       }
-      if (!tangential_) { continue; }
-      sense_[i] = sense(state);
-      const bool friction_acts = choice == Choice::any && !equations_.smooth(i);
-      if (friction_acts)
-      {
-         h_[i] = some();
-         if (!closed(state)) { sense_[i] = x_[i] >= 0 ? 1 : -1; }
-      }
-      const auto bound = [&](double sense)
-      { return equations_.bound()[i].line(F_[m], sense) + h_[i]; };
-      if (state == NodeState::stick)
-      {
-         x_[i] = 0;
-         if (choice == Choice::any)
-         {
-            F_[i] = std::clamp(F_[i], -0.9 * bound(1), 0.9 * bound(-1));
-         }
-         if (choice == Choice::forward) { F_[i] = std::max(F_[i], -bound(1)) + some(); }
-         if (choice == Choice::backward) { F_[i] = std::min(F_[i], bound(-1)) - some(); }
-         continue;
-      }
-      F_[i] = -sense_[i] * bound(sense_[i]);
-      if (friction_acts || choice == Choice::forward || choice == Choice::backward)
-      {
-         x_[i] = sense_[i] * (std::max(sense_[i] * x_[i], 0.0) + some() / stiffness[i]);
-      }
+      if (choice == Choice::forward) { F_[i] = std::max(F_[i], -bound(1)) + some(); }
+      if (choice == Choice::backward) { F_[i] = std::min(F_[i], bound(-1)) - some(); }
+      return;
    }
-   away_ = F_ - problem.b - equations.stiffness() * x_;
+   F_[i] = -sense_[i] * bound(sense_[i]);
+   if (friction_acts || choice == Choice::forward || choice == Choice::backward)
+   {
+      x_[i] = sense_[i] * (std::max(sense_[i] * x_[i], 0.0) + some() / stiffness[i]);
+   }
+}
+
+/// The piece of a bound at a pressure; at a bend the one below it.
+void Lemke::take_piece(Index i, double p)
+{
+   // A bend that p is on ends the piece.
+   const double inside = std::nextafter(p, -infinity);
+   pieces_[i] = {bounds_[i].straight(p), bounds_[i].bend(inside, -1), bounds_[i].bend(p, 1)};
+   equations_.set_bound(i, bounds_[i].of_rates(p));
 }
 
 template <class Visitor>
-void Path::for_each_inequality(Index i, Visitor visit) const
+void Lemke::for_each_inequality(Index i, Visitor visit) const
 {
    const Choice choice = problem_.choice[i];
    const bool any = choice == Choice::any;
    if (!any && choice != Choice::forward && choice != Choice::backward) { return; }
-   if (any) { visit(closed(equations_.states()[i]) ? pressure : gap); }
+   const bool in_contact = closed(equations_.states()[i]);
+   if (any) { visit(in_contact ? pressure : gap); }
    if (equations_.smooth(i)) { return; }
+   if (in_contact && bends(i))
+   {
+      if (std::isfinite(pieces_[i].begin)) { visit(below); }
+      if (std::isfinite(pieces_[i].end)) { visit(above); }
+   }
    if (sense_[i] != 0)
    {
       visit(way);
@@ -139,9 +187,15 @@ void Path::for_each_inequality(Index i, Visitor visit) const
    if (choice != Choice::forward) { visit(backward); }
 }
 
-double Path::value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, double theta) const
+double Lemke::value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, double theta,
+                    double one) const
 {
    const Index m = equations_.normal_row(i);
+   const auto reserve = [&](double sense)
+   {
+      const double intercept = bends(i) ? pieces_[i].line.intercept(0, sense) : 0.0;
+      return equations_.bound()[i].reserve(F[i], F[m], sense) + one * intercept + theta * h_[i];
+   };
    switch (kind)
    {
    case gap:
@@ -149,20 +203,53 @@ double Path::value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, dou
    case pressure:
       return F[m];
    case forward:
-      return equations_.bound()[i].reserve(F[i], F[m], 1) + theta * h_[i];
+      return reserve(1);
    case backward:
-      return equations_.bound()[i].reserve(F[i], F[m], -1) + theta * h_[i];
+      return reserve(-1);
    case way:
       return equations_.diagonal()[i] * sense_[i] * x[i];
+   case below:
+      return F[m] - one * pieces_[i].begin;
+   case above:
+      return one * pieces_[i].end - F[m];
    }
    return 0;
 }
 
+/// The inequality that is strict while that of this kind is an equation.
+Lemke::Kind Lemke::partner(Kind kind, double sense)
+{
+   switch (kind)
+   {
+   case gap:
+      return pressure;
+   case pressure:
+      return gap;
+   case forward:
+   case backward:
+      return way;
+   case way:
+      return sense > 0 ? forward : backward;
+   case below:
+      return above;
+   case above:
+      return below;
+   }
+   return gap;
+}
+
 /// The inequality becomes an equation, and its partner an inequality.
-bool Path::exchange(Index i, Kind kind)
+bool Lemke::exchange(Index i, Kind kind)
 {
    const bool in_contact = closed(equations_.states()[i]);
+   if (kind == below || kind == above)
+   {
+      take_piece(i,
+                 kind == below ? pieces_[i].begin : std::nextafter(pieces_[i].end, infinity));
+      return equations_.set(i, equations_.states()[i]);
+   }
    const bool stays_closed = kind == gap || (kind != pressure && in_contact);
+   if (kind == gap && bends(i)) { take_piece(i, 0); }
    if (kind == forward) { sense_[i] = 1; }
    if (kind == backward) { sense_[i] = -1; }
    if (kind == way) { sense_[i] = 0; }
@@ -176,7 +263,7 @@ bool Path::exchange(Index i, Kind kind)
                                             : NodeState::stick);
 }
 
-bool Path::find_direction()
+bool Lemke::find_direction()
 {
    VectorXd b = away_;
    if (tangential_) { b.head(n_) += sense_.cwiseProduct(h_); }
@@ -185,7 +272,20 @@ bool Path::find_direction()
    return true;
 }
 
-bool Path::meets_all(const VectorXd &x, const VectorXd &F)
+/// Of the pieces of the nodes that slip, with the sense of the slip: what does not go with p.
+VectorXd Lemke::intercepts() const
+{
+   VectorXd constant = VectorXd::Zero(problem_.b.size());
+   for (Index i = 0; i < static_cast<Index>(pieces_.size()); ++i)
+   {
+      const NodeState state = equations_.states()[i];
+      const double way = closed(state) ? sense(state) : 0;
+      if (way != 0) { constant[i] = way * pieces_[i].line.intercept(0, way); }
+   }
+   return constant;
+}
+
+bool Lemke::meets_all(const VectorXd &x, const VectorXd &F)
 {
    const VectorXd round_off = 100 * equations_.round_off(problem_.b, x);
    bool met = true;
@@ -197,61 +297,72 @@ bool Path::meets_all(const VectorXd &x, const VectorXd &F)
    return met;
 }
 
-bool Path::follow(ComplementarityReport &report)
+/// To the first inequality that becomes an equation, or to θ = 0 if none does before. False if
+/// neither comes: a ray.
+bool Lemke::go(double direction, double &theta, Index &node, Kind &kind)
+{
+   double step = direction < 0 ? theta : infinity;
+   node = -1;
+   for (Index i = 0; i < n_; ++i)
+   {
+      for_each_inequality(i,
+                          [&](Kind k)
+                          {
+                             const double rate = direction * value(i, k, dx_, dF_, 1, 0);
+                             if (!(rate < 0)) { return; }
+                             const double to =
+                                std::max(value(i, k, x_, F_, theta), 0.0) / -rate;
+                             if (to >= step) { return; }
+                             step = to;
+                             node = i;
+                             kind = k;
+                          });
+   }
+   if (!std::isfinite(step)) { return false; }
+   x_ += direction * step * dx_;
+   F_ += direction * step * dF_;
+   theta += direction * step;
+   return true;
+}
+
+bool Lemke::follow(ComplementarityReport &report)
 {
    double theta = 1, direction = -1;
-   if (!find_direction()) { return false; }
+   if (!possible_ || !find_direction()) { return false; }
    const long max_pivots = 20 * n_ + 100;
    while (report.pivots < max_pivots)
    {
-      double step = direction < 0 ? theta : std::numeric_limits<double>::infinity();
-      Index node = -1;
+      // 1. As far as the present states and pieces hold.
+      Index node;
       Kind kind = gap;
-      for (Index i = 0; i < n_; ++i)
-      {
-         for_each_inequality(i,
-                             [&](Kind k)
-                             {
-                                const double rate = direction * value(i, k, dx_, dF_, 1);
-                                if (!(rate < 0)) { return; }
-                                const double here =
-                                   std::max(value(i, k, x_, F_, theta), 0.0) / -rate;
-                                if (here >= step) { return; }
-                                step = here;
-                                node = i;
-                                kind = k;
-                             });
-      }
-      if (!std::isfinite(step)) { return false; } // a ray
-      x_ += direction * step * dx_;
-      F_ += direction * step * dF_;
-      theta += direction * step;
+      if (!go(direction, theta, node, kind)) { return false; }
       if (node < 0) { break; } // arrived
+      // 2. One node exchanges its state or piece.
       ++report.pivots;
-      // The path goes on into the inside of the partner's inequality, or turns back to do so.
-      const Kind partner = kind == gap          ? pressure
-                           : kind == pressure   ? gap
-                           : kind != way        ? way
-                           : sense_[node] > 0.0 ? forward
-                                                : backward;
+      const Kind to = partner(kind, sense_[node]);
       if (!exchange(node, kind) || !find_direction()) { return false; }
-      direction = value(node, partner, dx_, dF_, 1) > 0 ? 1 : -1;
+      // 3. The way goes on into the inside of the partner's inequality, or turns back to do so.
+      direction = value(node, to, dx_, dF_, 1, 0) > 0 ? 1 : -1;
    }
-   // The equations of the final states leave no drift; nothing holds nodes in separation now.
+   // 4. The equations of the final states leave no drift; nothing holds nodes in separation
+   // now.
    const std::vector<NodeState> states = equations_.states();
-   return equations_.set(states) && equations_.solve(problem_.b, report.x, report.F) &&
-          let_slip(equations_, report.x) && meets_all(report.x, report.F);
+   if (!equations_.set(states)) { return false; }
+   const VectorXd constant = intercepts();
+   if (!equations_.solve(problem_.b + constant, report.x, report.F)) { return false; }
+   report.F -= constant;
+   return let_slip(equations_, report.x) && meets_all(report.x, report.F);
 }
 
 } // namespace
 
-ComplementarityReport solve_by_path(StateEquations &equations,
-                                    const ComplementarityProblem &problem, const VectorXd &x,
-                                    const VectorXd &F, double slack, unsigned seed)
+ComplementarityReport solve_by_lemke(StateEquations &equations,
+                                     const ComplementarityProblem &problem, const VectorXd &x,
+                                     const VectorXd &F, double slack, unsigned seed)
 {
    ComplementarityReport report;
    report.solved =
-      let_slip(equations, x) && Path(equations, problem, x, F, slack, seed).follow(report);
+      let_slip(equations, x) && Lemke(equations, problem, x, F, slack, seed).follow(report);
    return report;
 }
 

@@ -1,4 +1,5 @@
 #include <cattaneo/friction/complementarity.hpp>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -58,17 +59,18 @@ NodeState wanted(const StateEquations &equations, Choice choice, Index i, const 
 
 } // namespace
 
-bool newton_on_states(std::vector<NodeState> &states, int max_steps, Index few,
-                      const std::function<bool()> &solve, const std::function<Index()> &ask)
+bool newton_on_states(const std::function<std::vector<double>()> &choices, int max_steps,
+                      Index few, const std::function<bool()> &solve,
+                      const std::function<Index()> &ask)
 {
-   std::set<std::vector<NodeState>> tried;
+   std::set<std::vector<double>> tried;
    // Few nodes of many that go on changing would do so up to the last step allowed.
    constexpr int enough = 8;
-   Index fewest = static_cast<Index>(states.size()) + 1;
+   Index fewest = std::numeric_limits<Index>::max();
    int patience = enough;
    for (int k = 0; k < max_steps && patience > 0; ++k)
    {
-      if (!tried.insert(states).second) { return false; } // it cycles
+      if (!tried.insert(choices()).second) { return false; } // it cycles
       if (!solve()) { return false; }
       const Index changed = ask();
       if (changed == 0) { return true; }
@@ -104,7 +106,13 @@ ComplementarityReport solve_by_newton(StateEquations &equations,
       }
       return changed;
    };
-   report.solved = newton_on_states(states, max_steps, 0, solve, ask);
+   const auto choices = [&]
+   {
+      std::vector<double> key;
+      for (const NodeState state : states) { key.push_back(static_cast<double>(state)); }
+      return key;
+   };
+   report.solved = newton_on_states(choices, max_steps, 0, solve, ask);
    return report;
 }
 

@@ -123,7 +123,9 @@ VectorXd DiscEquations::imbalance(const Increment &at, const Origin &from) const
       const Vector2d slip = at.along(from.u, i) - at.along(at.start.v, i);
       // B = 0: slip does not change the pressure, which is known.
       const double p = s.problem.coupled ? from.forces[k + 2 * closed_nodes_] : at.F[s.m(i)];
-      off[r] = to.n.dot(q) - s.bound[i].line(p);
+      // A bound that bends is the line of its piece where the increment stands.
+      const FrictionBound line = s.bound[i].straight(std::max(at.F[s.m(i)], 0.0));
+      off[r] = to.n.dot(q) - line.line(p);
       off[count + r] =
          (1 - to.share) * to.t().dot(q) + to.share * s.lone.kt[i] * to.t().dot(slip);
    }

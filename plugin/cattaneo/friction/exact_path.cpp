@@ -25,8 +25,9 @@ void list_changes(const ContactState &from, const std::vector<NodeState> &to,
 }
 
 ExactPath::ExactPath(const ReducedProblem &problem)
-   : problem_(problem), K_(problem.K), bounds_(friction_bounds(problem)), pieces_(bounds_),
-     equations_(K_, bounds_)
+   : problem_(problem),
+     K_(problem.K), bounds_{friction_bounds(problem), friction_bounds(problem), {}},
+     equations_(K_, bounds_.given)
 {
    require(problem.components() == 1, "exact path: the reduced problem has ",
            problem.components(), " tangential components a node, must have 1");
@@ -40,7 +41,7 @@ void ExactPath::find_choices(const ContactState &state)
    for (Index i = 0; i < n; ++i)
    {
       Choice &choice = rates_.choice[i];
-      const FrictionBound &bound = bounds_[i];
+      const FrictionBound &bound = bounds_.given[i];
       const double q = F_[i], p = F_[n + i], way = sense(state.status[i]),
                    forward = bound.reserve(q, p, 1), backward = bound.reserve(q, p, -1);
       if (!closed(state.status[i]))
@@ -59,15 +60,16 @@ void ExactPath::find_choices(const ContactState &state)
 /// Takes the piece of a node's bound at a pressure. False if it is that already.
 bool ExactPath::take_piece(Index node, double pressure)
 {
-   const FrictionBound piece = bounds_[node].straight(pressure);
+   const FrictionBound piece = bounds_.given[node].straight(pressure);
    const auto same = [&](double sense)
    {
-      return !pieces_[node].bends() && piece.slope(0, sense) == pieces_[node].slope(0, sense) &&
-             piece.intercept(0, sense) == pieces_[node].intercept(0, sense);
+      return !bounds_.pieces[node].bends() &&
+             piece.slope(0, sense) == bounds_.pieces[node].slope(0, sense) &&
+             piece.intercept(0, sense) == bounds_.pieces[node].intercept(0, sense);
    };
    if (same(1) && same(-1)) { return false; }
-   pieces_[node] = piece;
-   equations_.set_bound(node, bounds_[node].of_rates(pressure));
+   bounds_.pieces[node] = piece;
+   equations_.set_bound(node, bounds_.given[node].of_rates(pressure));
    return true;
 }
 
@@ -76,20 +78,20 @@ bool ExactPath::take_piece(Index node, double pressure)
 bool ExactPath::find_pieces(const ContactState &state)
 {
    const Index n = problem_.nodes();
-   bends_.clear();
+   bounds_.bends.clear();
    bool changed = false;
    for (Index i = 0; i < n; ++i)
    {
-      if (!bounds_[i].bends()) { continue; }
+      if (!bounds_.given[i].bends()) { continue; }
       const double p = closed(state.status[i]) ? std::max(F_[n + i], 0.0) : 0.0;
-      const double below = bounds_[i].bend(p, -1), above = bounds_[i].bend(p, 1);
+      const double below = bounds_.given[i].bend(p, -1), above = bounds_.given[i].bend(p, 1);
       const double nearest = p - below < above - p ? below : above;
       if (std::abs(p - nearest) > noise_[i])
       {
          changed = take_piece(i, p) || changed;
          continue;
       }
-      bends_.push_back({i, nearest, 1.0});
+      bounds_.bends.push_back({i, nearest, 1.0});
       changed = take_piece(i, std::nextafter(nearest, 2 * nearest)) || changed;
    }
    return changed;
@@ -101,7 +103,7 @@ bool ExactPath::turn_bends()
    const Index n = problem_.nodes();
    const double tiny = 1e-12 * F_rate_.cwiseAbs().maxCoeff();
    bool turned = false;
-   for (Bend &bend : bends_)
+   for (Bend &bend : bounds_.bends)
    {
       if (bend.side * F_rate_[n + bend.node] >= -tiny) { continue; }
       bend.side = -bend.side;
@@ -120,7 +122,7 @@ VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
    for (Index i = 0; i < n; ++i)
    {
       const double way = closed(states[i]) ? sense(states[i]) : 0;
-      if (way != 0) { constant[i] = way * pieces_[i].intercept(0, way); }
+      if (way != 0) { constant[i] = way * bounds_.pieces[i].intercept(0, way); }
    }
    return constant;
 }
@@ -227,7 +229,7 @@ bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
       if (found.solved) { break; }
       const VectorXd rest = VectorXd::Zero(K_.rows());
       if (!equations_.set(states)) { break; }
-      found = solve_by_path(equations_, rates_, rest, rest, slack, ++seed);
+      found = solve_by_lemke(equations_, rates_, rest, rest, slack, ++seed);
       counters_.pivots += found.pivots;
       last_.found_by = "event path, Lemke";
    }
@@ -253,7 +255,7 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
    const bool pieces_changed = find_pieces(state);
    // 2. Rates that were found before hold as long as pieces, states and way are the same.
    std::optional<ComplementarityReport> known;
-   if (!pieces_changed && bends_.empty() && known_.to.size() == way.multipliers.size() &&
+   if (!pieces_changed && bounds_.bends.empty() && known_.to.size() == way.multipliers.size() &&
        known_.to == way.multipliers && known_.from == state.multipliers &&
        equations_.states() == state.status)
    {
@@ -264,7 +266,7 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
    known_.to.resize(0);
    last_.ended = false;
    // 3. Each node at a bend goes to one side of it, which few turns find if there is one.
-   const std::size_t most_turns = 2 * bends_.size() + 1;
+   const std::size_t most_turns = 2 * bounds_.bends.size() + 1;
    for (std::size_t turns = 0; turns < most_turns; ++turns)
    {
       // 4. Equations that can be solved.
@@ -298,7 +300,7 @@ double ExactPath::left(Index i, double sense) const
 {
    const Index m = problem_.nodes() + i;
    if (rates_.choice[i] == Choice::open) { return K_(m, m) * (u_[m] + problem_.gap[i]); }
-   return sense == 0 ? F_[m] : bounds_[i].reserve(F_[i], F_[m], sense);
+   return sense == 0 ? F_[m] : bounds_.given[i].reserve(F_[i], F_[m], sense);
 }
 double ExactPath::rate(Index i, double sense) const
 {
@@ -360,9 +362,12 @@ double ExactPath::share_to_event(double stop)
    for (Index i = 0; i < n; ++i)
    {
       const double change = F_rate_[n + i];
-      if (!bounds_[i].bends() || !closed(equations_.states()[i]) || change == 0) { continue; }
+      if (!bounds_.given[i].bends() || !closed(equations_.states()[i]) || change == 0)
+      {
+         continue;
+      }
       const double p = F_[n + i],
-                   bend = bounds_[i].bend(p + std::copysign(noise_[i], change), change),
+                   bend = bounds_.given[i].bend(p + std::copysign(noise_[i], change), change),
                    to = (bend - p) / change;
       if (std::abs(bend - p) - stop * std::abs(change) >= -noise_[i] || to >= share)
       {
@@ -419,7 +424,7 @@ bool ExactPath::starts_from(const ContactState &state) const
    {
       const double limit = std::max({allowed, round_off[i], round_off[n + i]}),
                    way = sense(state.status[i]),
-                   off = bounds_[i].reserve(state.q[i], state.p[i], way),
+                   off = bounds_.given[i].reserve(state.q[i], state.p[i], way),
                    gap = K_(n + i, n + i) * (state.w[i] + problem_.gap[i]);
       starts = starts && (!closed(state.status[i]) || gap <= limit) &&
                (way == 0 || std::abs(off) <= limit);

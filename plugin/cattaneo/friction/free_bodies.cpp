@@ -237,6 +237,14 @@ ReducedProblem with_springs(const ReducedProblem &problem, double spring,
    return sprung;
 }
 
+/// Multipliers with that of the springs.
+VectorXd with_one(const VectorXd &multipliers)
+{
+   VectorXd all(multipliers.size() + 1);
+   all << multipliers, 1;
+   return all;
+}
+
 /// The motion of a body that springs cannot stop, which bear these forces.
 Mechanism motion_of(const VectorXd &bears, const std::vector<NodeState> &states,
                     Index components)
@@ -273,14 +281,11 @@ HeldBySprings hold_by_springs(Increment &at)
    const double soft = own.minCoeff(), mean = own.mean();
    // Weak against the softest node and felt by the stiffest, or they prove nothing.
    // Above critical friction a body that slides may as well lock itself.
-   const bool tell = soft > 1e-6 * own.maxCoeff() && s.above_critical() < 0;
+   const bool tell = soft > 1e-6 * own.maxCoeff() && s.above_critical(at.start.p) < 0;
    VectorXd anchor = at.start.displacements();
-   const auto count = static_cast<Index>(problem.patterns.size());
-   VectorXd loads(count + 1);
-   loads << at.multipliers, 1;
+   const VectorXd loads = with_one(at.multipliers);
    ContactState begin = at.start;
-   begin.multipliers.conservativeResize(count + 1);
-   begin.multipliers[count] = 1;
+   begin.multipliers = with_one(begin.multipliers);
    int alike = 0; // springs in a row that bore the same as the one before
    for (double weakness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8})
    {
@@ -290,7 +295,7 @@ HeldBySprings hold_by_springs(Increment &at)
       FrictionSystem sprung(
          std::make_shared<ReducedProblem>(with_springs(problem, spring, anchor)), s.settings);
       Increment of_sprung(sprung, begin, loads);
-      const bool found = find_held_end(of_sprung);
+      const bool found = find_end_if_held(of_sprung);
       s.counters += sprung.counters;
       if (!found)
       {
@@ -344,7 +349,7 @@ Mechanism find_spinning(Increment &at)
    FrictionSystem smooth(without, s.settings);
    const ContactState virgin = ContactState::virgin(problem);
    Increment of_smooth(smooth, virgin, at.multipliers);
-   if (!find_held_end(of_smooth)) { return {}; }
+   if (!find_end_if_held(of_smooth)) { return {}; }
    // 2. With its pressures.
    return find_spinning(problem, of_smooth.next.p, problem.clamped_forces(at.multipliers),
                         s.settings.tolerance * at.reference);
@@ -359,8 +364,8 @@ bool moves_away(Increment &at)
       at.springs = hold_by_springs(at);
       if (!at.springs->away.exists) { at.springs->away = find_spinning(at); }
    }
-   at.mechanism = at.springs->away;
-   return at.mechanism.exists;
+   at.cause.mechanism = at.springs->away;
+   return at.cause.mechanism.exists;
 }
 
 Search weak_springs(Increment &at)

@@ -2,7 +2,6 @@
 #include <cattaneo/friction/methods.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
-#include <set>
 #include <sstream>
 
 namespace cattaneo
@@ -30,8 +29,8 @@ void FrictionSettings::validate() const
 namespace
 {
 
-/// The methods in the order in which they are tried. docs/increments.md counts how often each
-/// of them wins.
+/// A method, with the families of problems that need it. docs/increments.md counts how often
+/// each of them wins.
 struct Method
 {
    const char *name;
@@ -39,25 +38,32 @@ struct Method
    bool thorough; ///< not worth its time where a brief answer is wanted
 };
 
-const Method methods[] = {
-   // Finds nearly every increment.
+/// Weak springs: free bodies under loads that nearly balance each other, which tip or roll to
+/// their answer (tests/stress/tipping_test).
+constexpr Method springs{"weak springs", weak_springs, true};
+
+/// In the order in which they are tried, with one tangent or none:
+const Method in_the_plane[] = {
+   // Nearly every increment.
    {"active set", active_set, false},
-   // One tangent or none: strong coupling and stiffness like a Hilbert matrix, where Newton's
-   // steps go round in a circle, and free bodies.
-   {"path", path, false},
-   // Free bodies under loads that nearly balance each other, which tip or roll to their answer
-   // (tests/stress/tipping_test).
-   {"weak springs", weak_springs, true},
-   // Two tangents: strong coupling, nodes at one place, nearly singular stiffness.
+   // Strong coupling and stiffness like a Hilbert matrix, where Newton's steps go round in a
+   // circle, and free bodies.
+   {"Lemke", lemke, false},
+   springs,
+   // A few of the same families, of which the ways from the start end in rays.
+   {"Lemke", lemke_from_afar, true}};
+
+/// With two tangents:
+const Method in_the_disc[] = {
+   // Nearly every increment.
+   {"active set", active_set_in_the_disc, false},
+   springs,
+   // Strong coupling, nodes at one place, nearly singular stiffness.
    {"damped Newton", damped_newton, true}};
 
-bool find_end(Increment &at, bool thorough = true)
+template <class Methods>
+bool find_end_by(const Methods &methods, Increment &at, bool thorough)
 {
-   if (at.system.settings.method == FrictionMethod::gauss_seidel)
-   {
-      at.report.found_by = "sweeps";
-      return gauss_seidel(at) == Search::found;
-   }
    for (const Method &method : methods)
    {
       if (method.thorough && !thorough) { break; }
@@ -70,83 +76,15 @@ bool find_end(Increment &at, bool thorough = true)
    return false;
 }
 
-/// Of an end on pieces of laws that bend: is each node that bears on the one that it took?
-bool stands_on_law(const Increment &at)
+bool find_end(Increment &at, bool thorough = true)
 {
-   const FrictionSystem &s = at.system;
-   bool fits = true;
-   for (Index i = 0; i < s.n; ++i)
+   if (at.system.settings.method == FrictionMethod::gauss_seidel)
    {
-      const double p = at.F[s.m(i)];
-      for (const double sense : {1.0, -1.0})
-      {
-         const double off = s.laws[i].at(p, sense) - s.bound[i].at(p, sense);
-         fits = fits && (!closed(at.status[i]) ||
-                         std::abs(off) <= 0.1 * s.settings.tolerance * at.scale());
-      }
+      at.report.found_by = "sweeps";
+      return gauss_seidel(at) == Search::found;
    }
-   return fits;
-}
-
-/** A law of friction that bends is taken as the lines of its pieces at the pressures p, and
-   then of what these lead to, until they are the pieces there. False where that comes back to
-    pieces that it began with. */
-bool settles_on_pieces(Increment &at, VectorXd p, bool thorough = false)
-{
-   FrictionSystem &s = at.system;
-   std::set<std::vector<double>> tried;
-   while (true)
-   {
-      s.take_pieces(p);
-      std::vector<double> lines;
-      for (const FrictionBound &bound : s.bound)
-      {
-         lines.insert(lines.end(), {bound.intercept(0, 1), bound.intercept(0, -1),
-                                    bound.slope(0, 1), bound.slope(0, -1)});
-      }
-      if (!tried.insert(lines).second || !find_end(at, thorough)) { return false; }
-      for (Index i = 0; i < s.n; ++i) { p[i] = closed(at.status[i]) ? at.F[s.m(i)] : 0.0; }
-      if (stands_on_law(at)) { return true; }
-      at.go_back();
-   }
-}
-
-/** The end on the pieces of the laws there. Where those of the start do not lead to them, the
-    loads come in parts, each from the same start, and pieces and pressures of one lead to those
-    of the next. */
-bool find_end_on_pieces(Increment &at)
-{
-   FrictionSystem &s = at.system;
-   if (s.laws.empty()) { return find_end(at); }
-   VectorXd p = at.start.p;
-   if (settles_on_pieces(at, p)) { return true; }
-   const VectorXd change = at.multipliers - at.start.multipliers;
-   for (double reached = 0, step = 0.5; step > 0.01;)
-   {
-      at.go_back();
-      if (reached + step >= 1)
-      {
-         if (settles_on_pieces(at, p)) { return true; }
-         step /= 2;
-         continue;
-      }
-      const VectorXd loads = at.start.multipliers + (reached + step) * change;
-      Increment part(s, at.start, loads);
-      if (!settles_on_pieces(part, p))
-      {
-         step /= 2;
-         continue;
-      }
-      reached += step;
-      p = part.end().p;
-      step = std::min(2 * step, 1 - reached);
-   }
-   at.go_back();
-   if (settles_on_pieces(at, at.start.p, true)) { return true; }
-   // Pieces may lead round in a circle, and a body jump to others: this asks the law itself.
-   at.go_back();
-   at.report.found_by = "damped Newton";
-   return damped_newton(at) == Search::found && stands_on_law(at);
+   return at.system.disc() ? find_end_by(in_the_disc, at, thorough)
+                           : find_end_by(in_the_plane, at, thorough);
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
@@ -189,8 +127,9 @@ IncrementReport solve_with_slip(FrictionSystem &system, ContactState &state,
 void explain_failure(Increment &at)
 {
    const FrictionSystem &s = at.system;
-   const Mechanism &mechanism = at.mechanism;
+   const Mechanism &mechanism = at.cause.mechanism;
    IncrementReport &report = at.report;
+   const VectorXd p = at.F.tail(s.n);
    std::ostringstream message;
    if (mechanism.exists)
    {
@@ -201,18 +140,18 @@ void explain_failure(Increment &at)
                   : mechanism.slides ? "the loads exceed what friction can hold: a body slides"
                                      : "the loads pull the contact apart: a body lifts off");
    }
-   else if (at.lost_in_round_off > 0)
+   else if (at.cause.lost_in_round_off > 0)
    {
       report.status = FrictionStatus::stalled;
       message << "the contact moves so far that its forces are lost in round-off ("
-              << at.lost_in_round_off << " of the largest)";
+              << at.cause.lost_in_round_off << " of the largest)";
    }
-   else if (const Index node = s.above_critical(); node >= 0)
+   else if (const Index node = s.above_critical(p); node >= 0)
    {
       report.status = FrictionStatus::no_solution;
       message << "no equilibrium was found, and there may be none: friction "
-              << s.friction(node) << " at node " << node << " is above its critical value "
-              << s.lone.critical[node];
+              << s.friction(node, p[node]) << " at node " << node
+              << " is above its critical value " << s.lone.critical[node];
    }
    else
    {
@@ -234,32 +173,32 @@ void explain_failure(Increment &at)
 
 } // namespace
 
-bool find_held_end(Increment &at)
+bool find_end_if_held(Increment &at)
 {
-   return at.system.laws.empty() ? find_end(at, false) : settles_on_pieces(at, at.start.p);
+   return find_end(at, false);
 }
 
 IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multipliers)
 {
    Increment at(*this, state, multipliers);
    IncrementReport &report = at.report;
-   if (!laws.empty()) { take_pieces(state.p); }
+   const Mechanism &mechanism = at.cause.mechanism;
    // 1. Loads that no admissible contact forces balance: there is nothing to search for.
    bool solved = !at.finds_mechanism();
    // 2. The methods, one after the other.
-   solved = solved && find_end_on_pieces(at);
+   solved = solved && find_end(at);
    // 3. A body that slides away may look like an answer.
    solved = solved && !runs_away(at);
-   // 4. Free bodies that nothing moves. (Of a law that bends other pieces may prove now that
-   // there is no equilibrium.)
-   if (!solved && !at.mechanism.exists)
+   // 4. Free bodies that nothing moves. (Where a law bends, pressures that were found may prove
+   // that there is no equilibrium.)
+   if (!solved && !mechanism.exists)
    {
-      solved = (laws.empty() || !at.finds_mechanism()) && rests(at);
+      solved = !(bends() && at.finds_mechanism()) && rests(at);
    }
    // 5. A free body without friction on a line that is nearly straight: that slip was
    // eliminated may have cost the digits. All is solved with it once more.
    const bool eliminated = without_slip && without_slip->tangential;
-   if (!solved && !at.mechanism.exists && eliminated)
+   if (!solved && !mechanism.exists && eliminated)
    {
       return solve_with_slip(*this, state, multipliers);
    }

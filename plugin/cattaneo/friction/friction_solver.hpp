@@ -30,8 +30,9 @@ const char *name(FrictionStatus status);
 /// How an increment is solved.
 enum class FrictionMethod
 {
-   automatic,   ///< a few Gauss–Seidel sweeps, active-set finish; if both fail a path, then
-                ///< weak springs on the rigid motions and damped Newton from several starts
+   automatic,   ///< Newton's steps on node states after a few Gauss–Seidel sweeps; if these
+                ///< fail Lemke's method, and weak springs on the rigid motions of free bodies;
+                ///< with two tangential components damped Newton from several starts
    gauss_seidel ///< node by node only (thesis 3.5, appendix D)
 };
 
@@ -43,11 +44,12 @@ struct FrictionSettings
    /// loads with the contact clamped, of the contact, of initial slip or interference).
    /// Where round-off is larger than this, round-off is the limit (reported).
    double tolerance = 1e-12;
-   /// Gauss–Seidel sweeps before the first active-set attempt; with two tangential components
-   /// one without any comes before.
+   /// Gauss–Seidel sweeps before Newton's steps; with two tangential components an attempt
+   /// without any comes before.
    int sweeps = 2;
-   int max_attempts = 3; ///< active-set attempts, each after twice the sweeps of the one before
-   int max_newton = 60;  ///< active-set steps of one attempt
+   int max_attempts = 3; ///< with two tangential components: attempts after sweeps, each after
+                         ///< twice the sweeps of the one before
+   int max_newton = 60;  ///< Newton's steps of one attempt
    long max_sweeps = 100000; ///< sweeps of the pure Gauss–Seidel method
 
    /// InputError naming the setting, its value and what is allowed.
@@ -61,7 +63,8 @@ struct IncrementReport
       FrictionStatus::stalled; ///< a solution was found if converged or not_unique
    std::string message;        ///< empty if converged
    /// Largest violation of the equations as given and of the laws by the state that is
-   /// returned, over the largest force so far.
+   /// returned, over the largest force so far, as it is found in double precision: the true one
+   /// is larger by the round-off at most.
    double residual_normal = 0;     ///< of normal displacements and forces
    double residual_tangential = 0; ///< of slip and friction forces
    double round_off = 0;           ///< estimate of what arithmetic can reach, relative

@@ -76,12 +76,6 @@ FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
      K(without_slip ? without_slip->K : problem.K), bound(friction_bounds(problem))
 {
    settings.validate();
-   const auto bends = [](const FrictionBound &of) { return of.bends(); };
-   if (!frictionless() && std::any_of(bound.begin(), bound.end(), bends))
-   {
-      laws = bound;
-      take_pieces(VectorXd::Zero(n));
-   }
    lone.kn = K.diagonal().tail(n);
    if (frictionless())
    {
@@ -107,28 +101,39 @@ FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
       std::make_shared<StiffnessProduct>(StiffnessProduct{SymmetricProduct(K), RoundOff(K)});
 }
 
-void FrictionSystem::take_pieces(const VectorXd &p)
+bool FrictionSystem::bends() const
 {
-   for (Index i = 0; i < n; ++i) { bound[i] = laws[i].straight(p[i]); }
-   // These have the pieces before.
-   equations.coupled.reset();
-   equations.tangential.reset();
+   return std::any_of(bound.begin(), bound.end(),
+                      [](const FrictionBound &of) { return of.bends(); });
 }
 
-double FrictionSystem::friction(Index i, const ContactState *state) const
+std::vector<FrictionBound> FrictionSystem::lines_at(const VectorXd &p) const
 {
-   if (laws.empty()) { return problem.friction[i]; }
-   return state ? laws[i].steepness(state->p[i]) : bound[i].steepness(0);
+   std::vector<FrictionBound> lines = bound;
+   for (Index i = 0; i < n; ++i) { lines[i] = lines[i].straight(std::max(p[i], 0.0)); }
+   return lines;
 }
 
-Index FrictionSystem::above_critical(const ContactState *state) const
+StateEquations &FrictionSystem::coupled_equations()
+{
+   if (!equations.coupled) { equations.coupled = std::make_unique<StateEquations>(K, bound); }
+   return *equations.coupled;
+}
+
+double FrictionSystem::friction(Index i, double p) const
+{
+   return bound[i].bends() ? bound[i].steepness(p) : problem.friction[i];
+}
+
+Index FrictionSystem::above_critical(const VectorXd &p,
+                                     const std::vector<NodeState> &states) const
 {
    Index worst = -1;
    double most = 1; // friction over its critical value
    for (Index i = 0; !frictionless() && i < n; ++i)
    {
-      const bool counts = !state || closed(state->status[i]);
-      const double share = friction(i, state) / lone.critical[i];
+      const bool counts = states.empty() || closed(states[i]);
+      const double share = friction(i, p[i]) / lone.critical[i];
       if (!counts || !(share >= most) || (worst >= 0 && share == most)) { continue; }
       worst = i;
       most = share;
@@ -187,10 +192,10 @@ IncrementReport FrictionSystem::uniqueness(const ContactState &state) const
 {
    IncrementReport report;
    report.status = FrictionStatus::converged;
-   const Index node = above_critical(&state);
+   const Index node = above_critical(state.p, state.status);
    if (node < 0) { return report; }
    std::ostringstream message;
-   message << "friction " << friction(node, &state) << " at node " << node
+   message << "friction " << friction(node, state.p[node]) << " at node " << node
            << " is above its critical value " << lone.critical[node];
    report.status = FrictionStatus::not_unique;
    report.message = message.str();

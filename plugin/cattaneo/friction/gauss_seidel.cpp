@@ -27,7 +27,7 @@ void sweep(Increment &at)
       // A body that is free to slide away up a slope meets no resistance.
       if (s.frictionless() && !(s.lone.kn[i] > 0)) { continue; }
       LoneNode node = s.frictionless() ? LoneNode{} : lone_node(s.problem, i);
-      if (!s.frictionless()) { node.bound = s.bound[i]; }
+      if (!s.frictionless()) { node.bound = s.bound[i].straight(std::max(at.F[s.m(i)], 0.0)); }
       node.c = s.lone.kn[i];
       const NodeVector slip = at.slip(i);
       const double gap = at.gap(i);

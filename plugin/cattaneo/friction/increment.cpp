@@ -40,6 +40,7 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
    reference = std::max(reference, F.cwiseAbs().maxCoeff());
    F += f;
    swept = {u, status};
+   take_pieces();
    // What comes out depends on the state and the loads, not on increments before: a march that
    // is cut and resumed gives the same bits.
    for (auto *equations : {&s.equations.coupled, &s.equations.normal, &s.equations.tangential})
@@ -78,6 +79,12 @@ void Increment::take(const VectorXd &displacements, const std::vector<NodeState>
    u = displacements;
    F = f + system.product->times(u);
    status = states;
+   take_pieces();
+}
+
+void Increment::take_pieces()
+{
+   if (!system.disc() && system.bends()) { piece = F.tail(system.n).cwiseMax(0.0); }
 }
 
 ContactState Increment::end() const
@@ -172,30 +179,30 @@ bool Increment::ends_here()
    // A solution that moves so far that its forces cannot be told from round-off.
    if (report.round_off >= lost && report.round_off < 0.1)
    {
-      lost_in_round_off = report.round_off;
+      cause.lost_in_round_off = report.round_off;
    }
    return obeyed;
 }
 
 bool Increment::finds_mechanism()
 {
+   Mechanism &mechanism = cause.mechanism;
    const VectorXd clamped = system.problem.clamped_forces(multipliers);
    const double negligible = system.settings.tolerance * reference;
    mechanism = find_mechanism(system.problem, clamped, negligible);
+   if (mechanism.exists || !system.bends()) { return mechanism.exists; }
    const std::vector<FrictionLaw> &laws = system.problem.laws;
-   const auto concave = [](const FrictionLaw &law) { return law.concave(); };
-   if (!mechanism.exists && !system.laws.empty() &&
-       std::all_of(laws.begin(), laws.end(), concave))
+   if (!std::all_of(laws.begin(), laws.end(),
+                    [](const FrictionLaw &law) { return law.concave(); }))
    {
-      // None holds more than the line of any of its pieces: of those taken, and of those where
-      // the increment starts, which is often next to the last equilibrium.
-      mechanism = find_mechanism(system.problem, system.bound, clamped, negligible);
-      std::vector<FrictionBound> there = system.laws;
-      for (Index i = 0; i < system.n; ++i) { there[i] = there[i].straight(start.p[i]); }
-      if (!mechanism.exists)
-      {
-         mechanism = find_mechanism(system.problem, there, clamped, negligible);
-      }
+      return false;
+   }
+   // No law holds more than the line of any of its pieces: those where the increment starts,
+   // which is often next to the last equilibrium, and those where it stands.
+   for (const VectorXd &p : {start.p, VectorXd(F.tail(system.n))})
+   {
+      mechanism = find_mechanism(system.problem, system.lines_at(p), clamped, negligible);
+      if (mechanism.exists) { break; }
    }
    return mechanism.exists;
 }

@@ -1,5 +1,10 @@
+// Lemke's method on the increments of the plane.
+
+#include <algorithm>
 #include <cattaneo/friction/complementarity.hpp>
 #include <cattaneo/friction/methods.hpp>
+#include <cmath>
+#include <random>
 
 namespace cattaneo
 {
@@ -7,49 +12,111 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Search path(Increment &at)
+namespace
 {
-   FrictionSystem &s = at.system;
-   if (s.disc()) { return Search::not_here; } // it has no straight sides
-   const Index n = s.n;
-   VectorXd stuck(s.K.rows()), forces(s.K.rows());
-   stuck.tail(n) = -s.problem.gap;
-   forces.tail(n) = at.start.p;
-   if (!s.frictionless())
+
+/// An increment as a complementarity problem, and one start after the other.
+class Starts
+{
+public:
+   explicit Starts(Increment &at) : at_(at), s_(at.system), equations_(s_.coupled_equations())
    {
-      stuck.head(n) = at.start.v;
-      forces.head(n) = at.start.q;
+      stuck_.resize(s_.K.rows());
+      stuck_.tail(s_.n) = -s_.problem.gap;
+      if (!s_.frictionless()) { stuck_.head(s_.n) = at.start.v; }
+      problem_.b = at.f + s_.product->times(stuck_);
+      problem_.choice.assign(s_.n, Choice::any);
+      if (s_.bends()) { problem_.bounds = s_.bound; }
    }
-   ComplementarityProblem increment;
-   increment.b = at.f + s.product->times(stuck);
-   increment.choice.assign(n, Choice::any);
-   VectorXd x = VectorXd::Zero(s.K.rows());
-   x.tail(n) = at.start.w + s.problem.gap;
+
+   /// From displacements u and forces that go with these states, as nearly as they do. True if
+   /// that comes to the end of the increment.
+   bool from(const VectorXd &u, const VectorXd &F, std::vector<NodeState> states, double slack)
+   {
+      const long factorisations = equations_.factorisations();
+      equations_.begin();
+      if (!equations_.set(states))
+      {
+         states.assign(s_.n, NodeState::stick);
+         equations_.set(states);
+      }
+      const ComplementarityReport found =
+         solve_by_lemke(equations_, problem_, u - stuck_, F, slack, ++seed_);
+      s_.counters.pivots += found.pivots;
+      s_.counters.dense_factorisations += equations_.factorisations() - factorisations;
+      // As many operations as solving and searching take.
+      const double N = static_cast<double>(s_.K.rows());
+      operations_ += N * N * N + static_cast<double>(found.pivots + 1) * (8 * N * N + 1e4);
+      if (!found.solved) { return false; }
+      at_.take(stuck_ + found.x, equations_.states());
+      return polished(at_);
+   }
+   double operations() const { return operations_; }
+
+private:
+   Increment &at_;
+   FrictionSystem &s_;
+   StateEquations &equations_;
+   VectorXd stuck_; // where no node slips and none is open
+   ComplementarityProblem problem_;
+   unsigned seed_ = 0;
+   double operations_ = 0;
+};
+
+} // namespace
+
+/// From the state at the start of the increment, which is a solution at other loads.
+Search lemke(Increment &at)
+{
+   const FrictionSystem &s = at.system;
    std::vector<NodeState> states = at.start.status;
    for (NodeState &state : states)
    {
       if (slips(state)) { state = NodeState::stick; }
    }
-   // Small departures follow the physical path; larger ones pass by its dead ends.
-   const double slacks[] = {1e-3, 1e-2, 0.1, 1, 10, 1, 0.1, 1};
-   unsigned seed = 0;
-   if (!s.equations.coupled)
+   const VectorXd u = s.frictionless() ? at.start.w : at.start.displacements(),
+                  F = s.frictionless() ? at.start.p : at.start.forces();
+   Starts starts(at);
+   // Small departures follow the physical way; larger ones pass by its dead ends.
+   for (const double slack : {1e-3, 1e-2, 0.1, 1.0, 10.0, 1.0, 0.1, 1.0})
    {
-      s.equations.coupled = std::make_unique<StateEquations>(s.K, s.bound);
+      if (starts.from(u, F, states, slack)) { return Search::found; }
    }
-   StateEquations &equations = *s.equations.coupled;
-   for (double slack : slacks)
+   return Search::not_here;
+}
+
+/// From random displacements, ever further away, in units of what the loads do to a node alone:
+/// as many as so many operations allow (1e9: about a second). The generator is seeded afresh,
+/// so that equal increments start alike.
+Search lemke_from_afar(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   // Without friction there is one answer, to which all starts lead.
+   if (s.frictionless()) { return Search::not_here; }
+   // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
+   const double operations = moves_away(at) ? 1e8 : 1e9;
+   const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();
+   constexpr int most = 200;
+   std::mt19937_64 random(1);
+   const auto some = [&] { return std::ldexp(double(random() >> 11), -52) - 1; };
+   Starts starts(at);
+   for (int k = 0; k < most && starts.operations() < operations; ++k)
    {
-      const long factorisations = equations.factorisations();
-      equations.begin();
-      if (!equations.set(states)) { states.assign(n, NodeState::stick); }
-      const ComplementarityReport found =
-         solve_by_path(equations, increment, x, forces, slack, ++seed);
-      s.counters.pivots += found.pivots;
-      s.counters.dense_factorisations += equations.factorisations() - factorisations;
-      if (!found.solved) { continue; }
-      at.take(stuck + found.x, equations.states());
-      if (polished(at)) { return Search::found; }
+      // 1. Displacements, and the states in which the natural map takes them.
+      const double size = std::pow(10, -2 + 4.0 * k / most);
+      VectorXd u = at.start.displacements();
+      for (Index row = 0; row < u.size(); ++row) { u[row] += size * far[row] * some(); }
+      at.take(u, at.start.status);
+      std::vector<NodeState> states(s.n);
+      for (Index i = 0; i < s.n; ++i) { states[i] = natural_state(at.node(i)); }
+      // 2. A solution; from afar a free body that slides away looks like one: round-off hides
+      // what drives it.
+      const double slack = std::pow(10, 0.5 * (k % 5) - 1.5);
+      if (starts.from(at.u, at.F, std::move(states), slack) &&
+          (s.problem.rigid_motions.cols() == 0 || at.report.round_off <= may_hide_sliding))
+      {
+         return Search::found;
+      }
    }
    return Search::not_here;
 }

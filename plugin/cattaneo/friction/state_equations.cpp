@@ -140,6 +140,29 @@ void StateEquations::add_columns(const std::vector<Index> &rows)
    }
 }
 
+/// The equation of a border that is present: its row of Q, and of D - Q M₀⁻¹ P.
+void StateEquations::set_equation(Index a, const Equation &now)
+{
+   const auto size = static_cast<Index>(borders_.size());
+   Border &border = borders_[a];
+   border.now = now;
+   border.made_for = now.factor;
+   const double *column = K_.col(now.row).data(), *other = K_.col(now.other).data(),
+                unit = diagonal_[now.row]; // K is symmetric
+   for (Index k = 0; k < static_cast<Index>(slots_.size()); ++k)
+   {
+      const Index at = slots_[k].row;
+      Q_(k, a) = (column[at] + now.factor * other[at]) / unit;
+   }
+   products_.row(a).head(size).noalias() = -Q_.col(a).transpose() * W_.leftCols(size);
+   for (Index b = 0; b < size; ++b)
+   {
+      if (borders_[b].in_factor) { continue; }
+      const Index at = borders_[b].now.row;
+      products_(a, b) += (column[at] + now.factor * other[at]) / unit;
+   }
+}
+
 /// The present states as borders of M₀. False if M₀ had better be factored anew.
 bool StateEquations::border()
 {
@@ -166,7 +189,6 @@ bool StateEquations::border()
    if (borders_.size() + fresh.size() > most) { return false; }
    if (!fresh.empty()) { add_columns(fresh); }
    active_.clear();
-   const auto size = static_cast<Index>(borders_.size());
    for (Index row : rows)
    {
       const Index a = border_of_[row];
@@ -174,22 +196,7 @@ bool StateEquations::border()
       Border &border = borders_[a];
       border.present = now[row].row >= 0;
       if (!border.present || now[row].factor == border.made_for) { continue; }
-      border.now = now[row];
-      border.made_for = border.now.factor;
-      const double *column = K_.col(border.now.row).data(),
-                   *other = K_.col(border.now.other).data(); // K is symmetric
-      for (Index k = 0; k < m; ++k)
-      {
-         const Index at = slots_[k].row;
-         Q_(k, a) = (column[at] + border.made_for * other[at]) / diagonal_[row];
-      }
-      products_.row(a).head(size).noalias() = -Q_.col(a).transpose() * W_.leftCols(size);
-      for (Index b = 0; b < size; ++b)
-      {
-         if (borders_[b].in_factor) { continue; }
-         const Index at = borders_[b].now.row;
-         products_(a, b) += (column[at] + border.made_for * other[at]) / diagonal_[row];
-      }
+      set_equation(a, now[row]);
    }
    const auto count = static_cast<Index>(active_.size());
    MatrixXd corner(count, count);

@@ -112,6 +112,11 @@ bool solve_uncoupled(Increment &at)
 bool solve_coupled(Increment &at)
 {
    FrictionSystem &s = at.system;
+   for (Index i = 0; i < at.piece.size(); ++i)
+   {
+      if (!s.bound[i].bends()) { continue; }
+      s.coupled_equations().set_bound(i, s.bound[i].straight(at.piece[i]));
+   }
    VectorXd found(at.u.size());
    found << at.start.v, closed_gaps(at);
    if (!solve_equations(s, s.equations.coupled, s.K, at.status, at.f, found, at.F))

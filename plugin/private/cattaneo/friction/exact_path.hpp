@@ -85,16 +85,19 @@ private:
    void write(ContactState &state, std::vector<NodeState> states, double present) const;
 
    const ReducedProblem &problem_;
-   const Eigen::MatrixXd &K_;                // the problem's
-   const std::vector<FrictionBound> bounds_; // of the nodes
-   std::vector<FrictionBound> pieces_;       // of them, straight ones, at the present pressures
+   const Eigen::MatrixXd &K_; // the problem's
    /// A node at a bend of its bound, and the side of it to which its pressure goes.
    struct Bend
    {
       Eigen::Index node;
       double pressure, side;
    };
-   std::vector<Bend> bends_;
+   struct
+   {
+      const std::vector<FrictionBound> given; // of the nodes
+      std::vector<FrictionBound> pieces;      // straight ones, at the present pressures
+      std::vector<Bend> bends;                // where pressures are on one
+   } bounds_;
    StateEquations equations_;        // with the bounds of rates
    Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
    Eigen::VectorXd u_rate_, F_rate_; // over the rest of the way

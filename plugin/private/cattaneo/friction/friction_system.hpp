@@ -84,8 +84,7 @@ struct FrictionSystem
    const Index n, c; // nodes and tangential components (frictionless: none)
    const std::unique_ptr<WithoutSlip> without_slip; // frictionless
    const MatrixXd &K;                               // the problem's, or without slip
-   std::vector<FrictionBound> bound; // of each node, of a law that bends the piece taken
-   std::vector<FrictionBound> laws;  // of each node, if one of them bends
+   const std::vector<FrictionBound> bound;          // of each node
    LoneNodes lone;
    std::shared_ptr<StiffnessProduct> product, whole_product; // of K, of the problem's K
    PlaneEquations equations;
@@ -95,19 +94,22 @@ struct FrictionSystem
    bool disc() const { return c == 2; }                      // friction force in the disc
    Index t(Index i, Index k = 0) const { return k * n + i; } // row of a tangential entry
    Index m(Index i) const { return c * n + i; }              // row of the normal entry
-   /// Of node i; of a law that bends the slope at the pressure of a state, or of the piece
-   /// taken.
-   double friction(Index i, const ContactState *state = nullptr) const;
-   /// The node whose friction is the most above its critical value, closed if a state is given;
-   /// -1: no node.
-   Index above_critical(const ContactState *state = nullptr) const;
+   /// Does a bound bend with the pressure?
+   bool bends() const;
+   /// The bounds' lines at these pressures.
+   std::vector<FrictionBound> lines_at(const VectorXd &p) const;
+   /// The equations of all states at once.
+   StateEquations &coupled_equations();
+   /// Of node i; of a law that bends the slope at a pressure.
+   double friction(Index i, double p) const;
+   /// The node whose friction at its pressure is the most above its critical value, closed if
+   /// states are given; -1: no node.
+   Index above_critical(const VectorXd &p, const std::vector<NodeState> &states = {}) const;
    /// The last word on a state as the end of an increment from slip v_old, in the equations as
    /// they are given, and what is reported of it, over the force `scale`.
    /// @param slip_error see check_laws()
    bool obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
                    IncrementReport &report, const VectorXd &slip_error = {}) const;
-   /// Takes the pieces of the laws at these normal forces.
-   void take_pieces(const VectorXd &p);
    // See FrictionSolver.
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
    IncrementReport judge(const ContactState &before, const ContactState &after,

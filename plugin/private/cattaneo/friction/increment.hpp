@@ -15,6 +15,13 @@ struct HeldBySprings
    bool bear_nothing = false;         ///< that spring bears nothing: the state is an answer
 };
 
+/// Why an increment has no end, if that was found out.
+struct Cause
+{
+   Mechanism mechanism;
+   double lost_in_round_off = 0; ///< round-off of a solution that moves too far; 0: none
+};
+
 /// One increment: where it starts, where it stands, and what was found out about it.
 struct Increment
 {
@@ -39,15 +46,15 @@ struct Increment
    VectorXd u, F; // displacements {v; w} and forces {q; p} (frictionless: w, p)
    std::vector<NodeState> status;
    std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
-   double reference = 0;            // largest force so far, the scale of residuals
+   VectorXd piece; // plane, bounds that bend: a pressure on the piece that each node is on
+   double reference = 0; // largest force so far, the scale of residuals
    // Where the last sweeps ended, from which every method sets out.
    Place swept;
 
    IncrementReport report;
    ContactState next; // the end that ends_here() judged last
-   Mechanism mechanism;
+   Cause cause;
    std::optional<HeldBySprings> springs; // if asked, see moves_away()
-   double lost_in_round_off = 0;         // round-off of a solution that moves too far; 0: none
 
    double scale() const { return reference > 0 ? reference : 1.0; }
    double gap(Index i) const { return u[system.m(i)] + system.problem.gap[i]; }
@@ -62,6 +69,8 @@ struct Increment
    double round_off_along(const VectorXd &rows, Index i) const;
 
    void take(const VectorXd &displacements, const std::vector<NodeState> &states);
+   /// Of bounds that bend, the pieces at the present pressures.
+   void take_pieces();
    void go_back() { take(swept.u, swept.status); }
    /// The state at the end, with exact zeros where the node states say zero.
    ContactState end() const;

@@ -19,31 +19,36 @@ void sweep(Increment &at);
 /// Sweeps until nothing changes.
 Search gauss_seidel(Increment &at);
 
-/// Semismooth Newton after a few sweeps, more before each attempt: node states stand for linear
-/// equations, whose solution asks for states.
+/// Plane: semismooth Newton after a few sweeps, where node states stand for linear equations,
+/// whose solution asks for states.
 Search active_set(Increment &at);
 /// From the present states alone.
 bool newton(Increment &at);
+/// From where so many sweeps lead, from where the last ones ended.
+bool newton_after_sweeps(Increment &at, int sweeps);
 /// Takes the states that the present displacements and forces ask for, in the disc with the
 /// directions of slip. @return how many nodes changed theirs
 Eigen::Index ask_for_states(Increment &at);
 /// newton() from a point that may be an answer itself, but for round-off.
 bool polished(Increment &at);
 
-/// Follows solutions from elsewhere to the one sought, one node's state at a time.
-Search path(Increment &at);
+/// Plane: follows solutions from elsewhere to the one sought, one node's state at a time; from
+/// the start of the increment, or from random places.
+Search lemke(Increment &at);
+Search lemke_from_afar(Increment &at);
 
-/// The methods of bodies that something holds: active_set() and path(), on the pieces of a law
-/// of friction that bends.
-bool find_held_end(Increment &at);
+/// Two tangents: Newton from the start itself, then after sweeps, more before each attempt.
+Search active_set_in_the_disc(Increment &at);
+/// Two tangents: Newton's method on the natural map with a line search, from several starts.
+Search damped_newton(Increment &at);
+
+/// The methods of bodies that something holds, the quick ones.
+bool find_end_if_held(Increment &at);
 
 /// From what weak springs hold to an answer without them.
 Search weak_springs(Increment &at);
 /// Does a body drift or spin away, so that there is no equilibrium? Found once an increment.
 bool moves_away(Increment &at);
-
-/// Newton's method on the natural map with a line search, from several starts.
-Search damped_newton(Increment &at);
 
 /// Is it the end of the increment where it stands? A body that slips wherever it touches could
 /// slip on as it is, with the same forces: it is moved before to where it has moved the least.

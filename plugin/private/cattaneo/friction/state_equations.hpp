@@ -124,6 +124,7 @@ private:
    bool border();
    bool adopt();
    void add_columns(const std::vector<Eigen::Index> &rows);
+   void set_equation(Eigen::Index border, const Equation &now);
    void step(const Eigen::VectorXd &F, Eigen::VectorXd &x) const;
    void step_transposed(const Eigen::VectorXd &g, Eigen::VectorXd &y) const;
 

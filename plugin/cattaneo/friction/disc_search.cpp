@@ -1,0 +1,155 @@
+// How the end of an increment is searched for with two tangential components.
+
+#include <cattaneo/friction/methods.hpp>
+#include <cmath>
+#include <random>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Search active_set_in_the_disc(Increment &at)
+{
+   const FrictionSettings &settings = at.system.settings;
+   // Newton's steps are as many from the state at the start as from a swept one.
+   if (newton(at)) { return Search::found; }
+   int sweeps = settings.sweeps;
+   for (int k = 0; k < settings.max_attempts; ++k)
+   {
+      if (newton_after_sweeps(at, sweeps)) { return Search::found; }
+      sweeps = std::max(4, 2 * sweeps);
+   }
+   return Search::not_here;
+}
+
+namespace
+{
+
+/// The natural map of all nodes: zero in a solution, else forces.
+VectorXd natural_map(const Increment &at)
+{
+   const FrictionSystem &s = at.system;
+   VectorXd R(at.F.size());
+   for (Index i = 0; i < s.n; ++i)
+   {
+      const NodeResidual r = residual(at.node(i));
+      R[s.m(i)] = r.normal;
+      for (Index k = 0; k < s.c; ++k) { R[s.t(i, k)] = r.tangential[k]; }
+   }
+   return R;
+}
+
+/// Its derivative by the displacements.
+MatrixXd natural_map_derivative(const Increment &at)
+{
+   const FrictionSystem &s = at.system;
+   MatrixXd J = MatrixXd::Zero(at.F.size(), at.F.size());
+   for (Index i = 0; i < s.n; ++i)
+   {
+      const ContactNode node = at.node(i);
+      const Index m = s.m(i);
+      if (node.kn * node.gap > node.p) { J.row(m) = s.K.row(m); }
+      else { J(m, m) = node.kn; }
+      const FrictionDerivative d = friction_derivative(node);
+      for (Index k = 0; k < s.c; ++k)
+      {
+         auto row = J.row(s.t(i, k));
+         for (Index l = 0; l < s.c; ++l)
+         {
+            const double share = (k == l) - d.P(k, l);
+            if (share != 0) { row += share * s.K.row(s.t(i, l)); }
+         }
+         if (d.slope != 0) { row -= d.slope * d.n[k] * s.K.row(m); }
+         for (Index l = 0; l < s.c; ++l) { row[s.t(i, l)] += d.P(k, l) * node.kt; }
+      }
+   }
+   return J;
+}
+
+/// Newton's method on the natural map from the present displacements, damped so that the
+/// residual falls in every step. False if it does not vanish.
+bool descend(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   at.F = at.f + s.product->times(at.u);
+   VectorXd R = natural_map(at);
+   for (int k = 0; k < 2 * s.settings.max_newton; ++k)
+   {
+      // Near enough for the active set to go on from here.
+      if (R.norm() <= 1e-9 * at.reference + at.round_off().maxCoeff()) { return true; }
+      ++s.counters.newton_steps;
+      ++s.counters.dense_factorisations;
+      DenseLU factor;
+      if (!factor.compute(natural_map_derivative(at))) { return false; }
+      const VectorXd from = at.u;
+      const double size = R.norm();
+      VectorXd &step = R;
+      factor.solve(step);
+      VectorXd next;
+      double share = 2;
+      do {
+         share *= 0.5;
+         if (share < 1e-6) { return false; }
+         at.u = from - share * step;
+         at.F = at.f + s.product->times(at.u);
+         next = natural_map(at);
+      } while (!(next.norm() < (1 - 1e-4 * share) * size));
+      R = next;
+   }
+   return false;
+}
+
+} // namespace
+
+/// From the present displacements, from those at the start of the increment, and from random
+/// ones ever further away, in units of what the loads do to a node alone: as many as so many
+/// operations allow (3e9: a second or two). The generator is seeded afresh, so that equal
+/// increments start alike.
+Search damped_newton(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
+   const double operations = moves_away(at) ? 2e8 : 3e9;
+   const VectorXd u_old = at.start.displacements();
+   const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();
+   const Index starts = std::clamp<Index>(4000000 / (s.n * s.n * s.n), 2, 1000);
+   const double N = static_cast<double>(s.K.rows()), step = N * N * (N + 40) + 5e4;
+   const long first_step = s.counters.newton_steps;
+   std::mt19937_64 random(1);
+   for (Index start = 0; start < starts; ++start)
+   {
+      if (start > 1 && step * double(s.counters.newton_steps - first_step) > operations)
+      {
+         break;
+      }
+      if (start > 0) { at.u = u_old; }
+      const double size = std::pow(10, -2 + 4.0 * start / starts);
+      for (Index k = 0; k < at.u.size() && start > 1; ++k)
+      {
+         at.u[k] += size * far[k] * (std::ldexp(double(random() >> 11), -52) - 1);
+      }
+      if (!descend(at)) { continue; }
+      for (Index i = 0; i < s.n; ++i)
+      {
+         const ContactNode node = at.node(i);
+         at.status[i] = natural_state(node);
+         if (at.status[i] == NodeState::slip)
+         {
+            at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
+         }
+      }
+      // From afar a free body that slides away looks like an answer: round-off hides what
+      // drives it.
+      if (polished(at) &&
+          (s.problem.rigid_motions.cols() == 0 || at.report.round_off <= may_hide_sliding))
+      {
+         return Search::found;
+      }
+   }
+   return Search::not_here;
+}
+
+} // namespace cattaneo
