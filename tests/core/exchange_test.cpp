@@ -163,9 +163,79 @@ TEST_F(Exchange, CalculixRingIsAFlatWedge)
 TEST_F(Exchange, AbaqusSparseWithSupports)
 {
    const NodalStiffness lower = read_stiffness(folder + "abaqus.mtx");
-   EXPECT_EQ(lower.dofs.size(), 20); // 1e36 on the diagonal of ten
+   EXPECT_EQ(lower.dofs.size(), 30);
+   EXPECT_EQ(lower.fixed.size(), 10); // 1e36 on the diagonal
    const ContactLine line = lower.contact_line(lower.nodes_of("face"));
    EXPECT_LT(difference(condense(lower.body(), line).S, expected("lower")), 1e-13);
+}
+
+/// A support on a contact node's x, as ABAQUS writes it, and fixed here.
+TEST_F(Exchange, AbaqusSupportsOnContactNodesAreHeldThere)
+{
+   std::string lines = read_whole(folder + "abaqus.mtx");
+   const std::string diagonal = "\n11,1,11,1,";
+   const std::size_t value = lines.find(diagonal) + diagonal.size();
+   ASSERT_GE(value, diagonal.size());
+   lines.replace(value, lines.find('\n', value) - value, "1e36");
+   write_whole("supported.mtx", lines);
+   write_whole("supported.inp", read_whole(folder + "abaqus.inp"));
+   const NodalStiffness supported = read_stiffness("supported.mtx");
+   NodalStiffness held = read_stiffness(folder + "abaqus.mtx");
+   held.fix({11}, 1);
+   EXPECT_EQ(supported.parts().size(), 1);
+   const auto condensed = [](const NodalStiffness &stiffness)
+   { return condense(stiffness.body(), stiffness.contact_line(stiffness.nodes_of("FACE"))); };
+   const CondensedBody expected = condensed(held), found = condensed(supported);
+   EXPECT_EQ(found.held, expected.held);
+   EXPECT_EQ(found.held.size(), 1);
+   EXPECT_LT(difference(found.S, expected.S), 1e-13);
+   // It cannot be moved: its forces are lost.
+   write_whole("supported.inp",
+               read_whole(folder + "abaqus.inp") + "*STEP\n*BOUNDARY\n11, 1, 1, 0.1\n");
+   expect_input_error([] { read_stiffness("supported.mtx"); }, "must be free in the step");
+}
+
+/// FORMAT=COORDINATE: row, column and value, rows by the numbers of nodes.
+TEST_F(Exchange, AbaqusRowsThatAreNumbered)
+{
+   const NodalStiffness named = read_stiffness(folder + "abaqus.mtx");
+   const auto write = [&](const auto &number)
+   {
+      std::ostringstream lines;
+      lines.precision(17);
+      for (int row = 0; row < named.K.rows(); ++row)
+      {
+         for (NodalStiffness::Matrix::InnerIterator k(named.K, row); k; ++k)
+         {
+            const bool supported =
+               std::binary_search(named.fixed.begin(), named.fixed.end(), row);
+            lines << number(named.dofs[row]) << ' ' << number(named.dofs[k.col()]) << ' '
+                  << (supported ? 1e36 : k.value()) << '\n';
+         }
+      }
+      write_whole("coordinate_STIF1.mtx", lines.str());
+      write_whole("coordinate.inp", read_whole(folder + "abaqus.inp"));
+      return read_stiffness("coordinate_STIF1.mtx");
+   };
+   // Nodes are 1 to 15.
+   const NodalStiffness numbered =
+      write([](const NodeDof &dof) { return 2 * dof.node - 2 + dof.direction; });
+   ASSERT_EQ(numbered.dofs.size(), named.dofs.size());
+   const std::map<NodeDof, int> rows = named.rows();
+   for (std::size_t i = 0; i < named.dofs.size(); ++i)
+   {
+      for (std::size_t j = 0; j < named.dofs.size(); ++j)
+      {
+         EXPECT_EQ(numbered.K.coeff(i, j),
+                   named.K.coeff(rows.at(numbered.dofs[i]), rows.at(numbered.dofs[j])));
+      }
+   }
+   const ContactLine line = numbered.contact_line(numbered.nodes_of("FACE"));
+   EXPECT_LT(difference(condense(numbered.body(), line).S, expected("lower")), 1e-13);
+   // x of all nodes, then y of all.
+   expect_input_error(
+      [&] { write([](const NodeDof &dof) { return dof.node + 15 * (dof.direction - 1); }); },
+      "rows are numbered otherwise");
 }
 
 /// K of one spring of `k` between internal node -1 and node 1, another to node 2, and 5 across.
@@ -424,9 +494,9 @@ TEST_F(Exchange, SupportsAndLoadsByName)
    const NodalStiffness lower = read_stiffness(folder + "abaqus.mtx");
    NodalStiffness moved = lower;
    moved.fix(lower.nodes_of("FLOOR"), 1); // held already
-   EXPECT_TRUE(moved.fixed.empty());
+   EXPECT_EQ(moved.fixed, lower.fixed);
    expect_input_error([&] { moved.add_displacement("up", lower.nodes_of("FLOOR"), 2, 1); },
-                      "direction 2 of node 1 has no row: leave it free");
+                      "moves node 1 in direction 2, whose row holds nothing but its diagonal");
 }
 
 TEST_F(Exchange, SupportsAndLoadsAsStatements)

@@ -182,6 +182,18 @@ void NodalStiffness::add_displacement(const std::string &load, const Nodes &node
                                       int direction, double value)
 {
    const std::vector<int> at = rows_of(nodes, direction, false);
+   // A support that was eliminated has lost the forces which its motion takes.
+   for (std::size_t k = 0; supports_left_out && k < at.size(); ++k)
+   {
+      bool coupled = false;
+      for (Matrix::InnerIterator entry(K, at[k]); entry; ++entry)
+      {
+         coupled = coupled || (entry.col() != at[k] && entry.value() != 0);
+      }
+      require(coupled, "stiffness '", name, "': load '", load, "' moves node ", nodes[k],
+              " in direction ", direction,
+              ", whose row holds nothing but its diagonal: ", leave_free);
+   }
    fix(nodes, direction);
    Eigen::VectorXd &values = load_of(load, Control::displacement).values;
    for (int row : at) { values[row] = value; }
@@ -382,7 +394,8 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
    std::set<int> gone;
    if (supports_left_out)
    {
-      const AssembledBody all = body();
+      AssembledBody all = body();
+      all.fixed.clear(); // fixed or not
       const std::vector<int> rows = all.eliminated();
       gone.insert(rows.begin(), rows.end());
       // Round-off in them connects no bodies.

@@ -70,8 +70,8 @@ public:
    /// Adds a force at each of the nodes to the load of that name, which is new or has force
    /// control.
    void add_forces(const std::string &load, const Nodes &nodes, int direction, double force);
-   /// Moves nodes by a value per unit multiplier, and fixes them; a row that K has no more
-   /// cannot be moved.
+   /// Moves nodes by a value per unit multiplier, and fixes them; a row that K has no more,
+   /// or of which it has the diagonal alone (an eliminated support), cannot be moved.
    void add_displacement(const std::string &load, const Nodes &nodes, int direction,
                          double value);
    /// Force per length (area, about an axis) on the elements that contact_line() finds.

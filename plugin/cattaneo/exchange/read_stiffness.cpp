@@ -70,8 +70,8 @@ void read_calculix(const std::string &file, NodalStiffness &rows)
 
 // --- ABAQUS --------------------------------------------------------------------------------
 
-/// Without rows that are `gone`: those of supports are left out, internal ones eliminated, K_bb
-/// - K_bi K_ii⁻¹ K_ib.
+/// Eliminates internal rows, K_bb - K_bi K_ii⁻¹ K_ib, and leaves of each support its diagonal,
+/// 1: the true one is lost, since 1e36 was added to it.
 void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::string &file)
 {
    std::vector<int> number(rows.dofs.size(), -1);
@@ -79,8 +79,8 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
    std::vector<NodeDof> kept;
    for (std::size_t row = 0; row < rows.dofs.size(); ++row)
    {
-      if (supported[row]) { continue; }
       const bool internal = rows.dofs[row].node < 0;
+      if (internal && supported[row]) { continue; }
       if (!internal) { kept.push_back(rows.dofs[row]); }
       number[row] = count[internal]++;
    }
@@ -91,6 +91,7 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
       {
          const auto column = static_cast<int>(entry.col());
          if (number[row] < 0 || number[column] < 0) { continue; }
+         if (row != column && (supported[row] || supported[column])) { continue; }
          const bool inside = rows.dofs[row].node < 0,
                     column_inside = rows.dofs[column].node < 0;
          if (!inside && column_inside) { continue; } // the transpose of K_ib
@@ -112,26 +113,97 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
       const Eigen::SparseMatrix<double> part = coupling.transpose() * inside;
       K -= 0.5 * (part + Eigen::SparseMatrix<double>(part.transpose()));
    }
+   for (std::size_t row = 0; row < rows.dofs.size(); ++row)
+   {
+      if (supported[row] && number[row] >= 0 && rows.dofs[row].node > 0)
+      {
+         rows.fixed.push_back(number[row]);
+      }
+   }
    rows.supports_left_out = std::count(supported.begin(), supported.end(), true) > 0;
    rows.K = K;
    rows.dofs = kept;
 }
 
-void read_abaqus_sparse(const std::string &file, NodalStiffness &rows)
+/// Which rows a matrix of FORMAT=COORDINATE has: both directions of each node that has an
+/// element, by the numbers of nodes.
+std::vector<NodeDof> numbered_rows(const InputDeck &deck)
+{
+   std::set<int> nodes;
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      nodes.insert(element.nodes.begin(), element.nodes.end());
+   }
+   std::vector<NodeDof> rows;
+   for (int node : nodes) { rows.insert(rows.end(), {{node, 1}, {node, 2}}); }
+   return rows;
+}
+
+/// InputError if a matrix whose rows are numbered connects nodes that no element connects:
+/// then its rows are others than is thought.
+void require_elements_connect(const NodalStiffness &rows, const InputDeck &deck,
+                              const std::string &file)
+{
+   std::map<int, std::set<int>> neighbours;
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      for (int node : element.nodes)
+      {
+         neighbours[node].insert(element.nodes.begin(), element.nodes.end());
+      }
+   }
+   for (int row = 0; row < rows.K.rows(); ++row)
+   {
+      for (Matrix::InnerIterator entry(rows.K, row); entry; ++entry)
+      {
+         const int one = rows.dofs[row].node, other = rows.dofs[entry.col()].node;
+         require(entry.value() == 0 || neighbours[one].count(other) == 1, "file '", file,
+                 "': its row ", row + 1, ", taken for ", dof_name(rows.dofs[row]),
+                 ", is coupled to row ", entry.col() + 1, ", taken for ",
+                 dof_name(rows.dofs[entry.col()]),
+                 ", which has no element in common: rows are numbered otherwise, write the "
+                 "matrix with FORMAT=MATRIX INPUT, which names nodes");
+      }
+   }
+}
+
+/// Lines of node, direction, node, direction and value (FORMAT=MATRIX INPUT), or of row, column
+/// and value (FORMAT=COORDINATE).
+void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalStiffness &rows)
 {
    SymmetricEntries entries;
    std::map<NodeDof, int> number;
    std::vector<bool> supported;
+   std::size_t count = 0; // of words in a line
    LineReader in(file);
    while (in.next())
    {
       if (in.line()[0] == '*') { continue; } // *MATRIX INPUT, or a comment
       const std::vector<std::string_view> fields = in.words();
-      in.require(fields.size() == 5, "'", trimmed(in.line()),
-                 "', must be node, direction, node, direction and value");
+      if (count == 0) // the first line tells which
+      {
+         count = fields.size();
+         if (count == 3)
+         {
+            rows.dofs = numbered_rows(deck);
+            supported.assign(rows.dofs.size(), false);
+         }
+      }
+      in.require(fields.size() == count && (count == 3 || count == 5), "'", trimmed(in.line()),
+                 "', must be node, direction, node, direction and value, or row, column and "
+                 "value, in all lines alike");
       std::array<int, 2> at{};
       for (std::size_t k : {0, 1})
       {
+         if (count == 3)
+         {
+            const int row = in.integer(fields[k], "a row");
+            in.require(row >= 1 && row <= static_cast<int>(rows.dofs.size()), "row ", row,
+                       ", must be from 1 to ", rows.dofs.size(),
+                       ", two for each node that has an element in the deck");
+            at[k] = row - 1;
+            continue;
+         }
          const NodeDof dof{in.integer(fields[2 * k], "a node"),
                            in.integer(fields[2 * k + 1], "a direction")};
          in.require(dof.node != 0, "node 0, must be a node, or an internal one below zero");
@@ -143,7 +215,7 @@ void read_abaqus_sparse(const std::string &file, NodalStiffness &rows)
             supported.push_back(false);
          }
       }
-      double value = in.number(fields[4], "an entry");
+      double value = in.number(fields.back(), "an entry");
       constexpr double support = 1e36;
       if (at[0] == at[1] && value >= 0.5 * support)
       {
@@ -157,6 +229,7 @@ void read_abaqus_sparse(const std::string &file, NodalStiffness &rows)
    rows.K = entries.matrix(
       size, file, [&](int row) { return dof_name(rows.dofs[row]); },
       [&](int row) { return rows.dofs[row].node > 0; });
+   if (count == 3) { require_elements_connect(rows, deck, file); }
    drop(rows, supported, file);
 }
 
@@ -447,7 +520,9 @@ private:
 void add_cards(const std::vector<Card> &cards, const std::string &file, NodalStiffness &result)
 {
    Entries entries(result);
-   std::set<NodeDof> held;
+   // What would hold a support that moves is not in the matrix either.
+   std::set<NodeDof> held, lost;
+   for (int row : result.fixed) { lost.insert(result.dofs[row]); }
    for (const Card &card : cards)
    {
       if (card.control == Control::force) { continue; }
@@ -461,14 +536,14 @@ void add_cards(const std::vector<Card> &cards, const std::string &file, NodalSti
          require(at.direction == 1 || at.direction == 2 || value == 0, "file '", file, "': '",
                  card.name, "' loads ", dof_name(at),
                  ", the direction of a force must be 1 or 2");
-         const bool there = entries.has_row(at);
+         const bool there = entries.has_row(at) && !(value != 0 && lost.count(at) == 1);
          result.supports_left_out = result.supports_left_out || (moves && !there);
          require(
             there || (moves ? value == 0 : held.count(at) == 1), "file '", file, "': '",
             card.name, moves ? "' moves " : "' loads ", dof_name(at),
-            ", which the matrix has no row of, it must be free in the step that writes the "
+            ", which the matrix has no forces of, it must be free in the step that writes the "
             "matrix");
-         if (!there) { continue; } // held by what is no part of the matrix
+         if (!there) { continue; } // a force on what is held
          if (moves && value == 0) { entries.fix(at); }
          else { entries.add(card.name, card.control, at, value); }
       }
@@ -715,9 +790,9 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
       const std::string deck = beside(".inp");
       InputDeck said = read_input_deck(deck, DeckUse::stiffness);
       take_nodes(said, result);
-      (ending == ".sti"          ? read_calculix
-       : form == MtxForm::sparse ? read_abaqus_sparse
-                                 : read_user_element)(matrix, result);
+      if (ending == ".sti") { read_calculix(matrix, result); }
+      else if (form == MtxForm::sparse) { read_abaqus_sparse(matrix, said, result); }
+      else { read_user_element(matrix, result); }
       // Forces are those of the whole circumference already.
       const bool wedge = ending == ".sti" && result.formulation == Formulation::axisymmetric;
       if (wedge) { result.K *= 180.0; }

@@ -11,8 +11,9 @@ namespace cattaneo
 
     - `.sti`, places in `.inp`: CalculiX, *FREQUENCY, SOLVER=MATRIXSTORAGE; rows from `.dof`
     - `.mtx`, places in `.inp`, of the same name or of that before "_STIF1", as ABAQUS names
-      its matrices: ABAQUS, *MATRIX GENERATE, or (dense) *USER ELEMENT, *MATRIX,
-      TYPE=STIFFNESS, which CalculiX writes too
+      its matrices: ABAQUS, *MATRIX GENERATE, with FORMAT=MATRIX INPUT or COORDINATE (rows are
+      then both directions of each node that has an element, by the numbers of nodes), or
+      (dense) *USER ELEMENT, *MATRIX, TYPE=STIFFNESS, which CalculiX writes too
     - `.mtx`, places in `.dofs`: MatrixMarket, coordinate or array
     - `.npy`, places in `.dofs`: NumPy, a dense matrix
     - `.npz`, places in `.dofs`: scipy.sparse.save_npz(…, compressed=False), or an array K;
@@ -22,10 +23,12 @@ namespace cattaneo
     its steps load: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card with
     displacements a load "BOUNDARY1", …; zero ones are supports. With elements SPRING1 or
     SPRING2 a body without supports need not be free. Without plane elements a comment **
-    AXISYMMETRIC says that x is r. Supports that the program took out of the matrix (CalculiX:
-    all of those of its step; ABAQUS: 1e36 on the diagonal) are left out here too, internal
-    nodes of ABAQUS (negative numbers) are eliminated. Of CalculiX's axisymmetric elements, flat
-    wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it are the wedge's.
+    AXISYMMETRIC says that x is r. Supports that CalculiX took out of the matrix,
+    all of those of its step, have no row here either. Rows with 1e36 on the diagonal, supports
+    of ABAQUS, are fixed, and uncoupled from the others: they may be on contact nodes, and
+    cannot be moved. Internal nodes of ABAQUS (negative numbers) are eliminated. Of CalculiX's
+   axisymmetric elements, flat wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it
+   are the wedge's.
 
     A `.dofs` file says of each row, in their order, `node direction x y`, and may say, in lines
     of their own, `axisymmetric`, `set NAME nodes…`, `fixed node direction`, `force LOAD node
