@@ -93,6 +93,21 @@ public:
       require(!all.empty(), called(), " is empty, must have a number");
       return all;
    }
+   /// A number, a list of them, or an object of numbers by names.
+   JointCase::Body::Constants constants(const Check &check) const
+   {
+      JointCase::Body::Constants made;
+      if (!value_.is_object()) { made.values = numbers(check); }
+      else
+      {
+         require(!value_.empty(), called(), " is empty, must have a number");
+         for (const auto &item : value_.items())
+         {
+            made.named[item.key()] = (*this)[item.key()].number(check);
+         }
+      }
+      return made;
+   }
    std::string statements() const
    {
       std::vector<std::string> all;
@@ -202,8 +217,8 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    JointCase::Body made;
    made.name = name;
    made.source = source(key);
-   key.must_be_of({"mesh", "part", "matrix", "deck", "half-plane", "young", "poisson", "order",
-                   "geometry", "expansion", "support", "load", "guides"});
+   key.must_be_of({"mesh", "part", "split", "matrix", "deck", "half-plane", "young", "poisson",
+                   "order", "geometry", "expansion", "support", "load", "guides"});
    const bool is_matrix = key.has("matrix") || key.has("deck");
    const int kinds = key.has("mesh") + is_matrix + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
@@ -218,21 +233,21 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    };
    if (key.has("half-plane"))
    {
-      goes_without("half-plane", {"part", "young", "poisson", "order", "geometry", "expansion",
-                                  "support", "load", "guides"});
+      goes_without("half-plane", {"part", "split", "young", "poisson", "order", "geometry",
+                                  "expansion", "support", "load", "guides"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
       made.source = source(plane);
-      made.young = {plane["young"].number(positive)};
-      made.poisson = {plane["poisson"].number(between(-1, 0.5))};
+      made.young.values = {plane["young"].number(positive)};
+      made.poisson.values = {plane["poisson"].number(between(-1, 0.5))};
       if (plane.has("depth")) { made.depth = plane["depth"].number(positive); }
       return made;
    }
    if (is_matrix)
    {
       goes_without(key.has("matrix") ? "matrix" : "deck",
-                   {"part", "young", "poisson", "expansion", "guides"});
+                   {"part", "split", "young", "poisson", "expansion", "guides"});
       if (key.has("deck")) { made.deck = key["deck"].file(); }
       made.matrix = key.has("matrix") ? key["matrix"].file() : matrix_of_deck(made.deck);
    }
@@ -241,11 +256,12 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
       made.mesh = key["mesh"].file();
       const std::string ending = std::filesystem::path(made.mesh).extension().string();
       if (key.has("part")) { made.part = key["part"].text(); }
+      if (key.has("split")) { made.split = key["split"].text(); }
       // A deck may have materials of its own.
       if ((ending != ".inp" && ending != ".INP") || key.has("young") || key.has("poisson"))
       {
-         made.young = key["young"].numbers(positive);
-         made.poisson = key["poisson"].numbers(any);
+         made.young = key["young"].constants(positive);
+         made.poisson = key["poisson"].constants(any);
       }
    }
    if (key.has("order"))

@@ -5,6 +5,7 @@
 #include <cattaneo/elastic/guide.hpp>
 #include <cattaneo/expression.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -34,9 +35,16 @@ struct JointCase
       std::string mesh, matrix; ///< one of them, or a half-plane
       std::string deck;         ///< that says where the nodes of the matrix are, if named
       std::string part;         ///< of a mesh that is a deck: instance or set of elements
-      /// One, or one for each attribute; both empty: those of the deck.
-      std::vector<double> young, poisson;
-      double expansion = none; ///< for temperature loads
+      std::string split;        ///< a line of Gmsh along which the mesh is cut
+      /// Elastic constants: one, one for each attribute, or by the names of groups of elements.
+      struct Constants
+      {
+         std::vector<double> values;
+         std::map<std::string, double> named;
+         bool empty() const { return values.empty() && named.empty(); }
+      };
+      Constants young, poisson; ///< both empty: those of the deck
+      double expansion = none;  ///< for temperature loads
       std::string support, load;
       struct Guided
       {

@@ -50,7 +50,7 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
    const auto number = static_cast<int>(bodies.size());
    const bool about_axis = joint.formulation != Formulation::plane;
    HalfPlane below;
-   below.material = {plane.young[0], plane.poisson[0],
+   below.material = {plane.young.values[0], plane.poisson.values[0],
                      joint.plane_stress ? PlaneState::stress : PlaneState::strain};
    Eigen::Vector2d normal(0, 0);
    const LineNode *held = nullptr, *any = nullptr;

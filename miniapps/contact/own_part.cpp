@@ -8,6 +8,7 @@
 #include <cattaneo/mesh/mesh_file.hpp>
 #include <cattaneo/words.hpp>
 #include <map>
+#include <set>
 
 namespace miniapp
 {
@@ -19,7 +20,7 @@ namespace
 
 std::vector<Material> materials(const JointCase::Body &body, int attributes, bool plane_stress)
 {
-   std::vector<double> young = body.young, poisson = body.poisson;
+   std::vector<double> young = body.young.values, poisson = body.poisson.values;
    const std::string both =
       body.source.called("young") + " and " + body.source.called("poisson");
    const std::size_t count = std::max(young.size(), poisson.size());
@@ -52,10 +53,44 @@ JointCase::Body with_materials(JointCase::Body body, const MeshNames &names)
       require(material.young > 0, "the material '", material.name, "' of its section ", k + 1,
               " has no *ELASTIC that is isotropic and the same at all temperatures: the keys "
               "young and poisson must be there");
-      body.young.push_back(material.young);
-      body.poisson.push_back(material.poisson);
+      body.young.values.push_back(material.young);
+      body.poisson.values.push_back(material.poisson);
    }
    return body;
+}
+
+/// A constant for each attribute of the elements, of those by the names of their groups.
+void by_attribute(JointCase::Body::Constants &constants, const std::string &key,
+                  const mfem::Mesh &mesh, const MeshNames &names)
+{
+   if (constants.named.empty()) { return; }
+   constants.values.assign(mesh.attributes.Max(), constants.named.begin()->second);
+   std::set<int> known;
+   std::vector<std::string> groups;
+   for (const auto &[group, attribute] : names.elements) { groups.push_back(group); }
+   for (const auto &[group, value] : constants.named)
+   {
+      const auto found = names.elements.find(group);
+      require(found != names.elements.end(), key, " names '", group,
+              "', which is no group of elements of the mesh, must be one of ",
+              groups.empty() ? "none: the mesh has no names" : listed(groups));
+      known.insert(found->second);
+      // Of a group without elements nothing is said.
+      if (found->second <= mesh.attributes.Max())
+      {
+         constants.values[found->second - 1] = value;
+      }
+   }
+   for (int attribute : mesh.attributes)
+   {
+      const auto its =
+         std::find_if(names.elements.begin(), names.elements.end(),
+                      [&](const auto &group) { return group.second == attribute; });
+      require(known.count(attribute) == 1, key, " has nothing for ",
+              its == names.elements.end() ? "attribute " + std::to_string(attribute)
+                                          : "the group '" + its->first + "'",
+              " of the elements, must have a number for each group");
+   }
 }
 
 /// What a deck says of plane stress or strain, if the case says otherwise; else nothing.
@@ -99,7 +134,7 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
       [&]
       {
          std::vector<int> curves;
-         const MeshPart part{body_.part, body_.name};
+         const MeshPart part{body_.part, body_.name, body_.split};
          mfem::Mesh mesh = read_mesh(body_.mesh, &curves, part);
          const MeshNames names = mesh_names(body_.mesh, part);
          require(!names.axisymmetric || joint_.formulation == Formulation::axisymmetric,
@@ -127,8 +162,10 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
                               supported_attributes(support, body_.support, terms_));
          if (!body_.as_meshed) { warn_of_thin_wall(sides_, body_.name, order()); }
          const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
-         own.materials.push_back(
-            materials(with_materials(body_, names), attributes, joint_.plane_stress));
+         JointCase::Body made = with_materials(body_, names);
+         by_attribute(made.young, body_.source.called("young"), mesh, names);
+         by_attribute(made.poisson, body_.source.called("poisson"), mesh, names);
+         own.materials.push_back(materials(made, attributes, joint_.plane_stress));
          elastic_ =
             &own.scene.add(std::move(mesh), order(), own.materials.back(), joint_.formulation);
          add_supports(*elastic_, body_.source.called("support"), body_.support, terms_);

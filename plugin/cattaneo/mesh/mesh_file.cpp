@@ -5,6 +5,8 @@
 #include <cattaneo/exchange/off_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/deck_mesh.hpp>
+#include <cattaneo/mesh/split_line.hpp>
+#include <cattaneo/words.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -296,12 +298,63 @@ private:
    bool out_;
 };
 
+/// Groups of Gmsh by their names; none of another file.
+MeshNames gmsh_names(const std::string &file)
+{
+   MeshNames names;
+   std::ifstream in(file, std::ios::binary);
+   std::string line;
+   while (std::getline(in, line) && line.rfind("$PhysicalNames", 0) != 0)
+   {
+      if (line.rfind("$Nodes", 0) == 0) { return names; }
+   }
+   long expected = 0;
+   in >> expected;
+   for (long k = 0; k < expected; ++k)
+   {
+      int dimension = 0, number = 0;
+      in >> dimension >> number;
+      std::getline(in, line);
+      const std::size_t from = line.find('"'), to = line.rfind('"');
+      require(in.good() && from != std::string::npos && to > from, "mesh file: physical group ",
+              k + 1, " of ", expected, " has no name, must be DIMENSION NUMBER \"NAME\"");
+      std::string name = line.substr(from + 1, to - from - 1);
+      std::replace(name.begin(), name.end(), ' ', '_');
+      if (dimension == 1) { names.boundary[name] = {number}; }
+      if (dimension == 2) { names.elements[name] = number; }
+   }
+   return names;
+}
+
+/// The attributes of both lips of a line to split: its own, and the first that no line has.
+std::array<long, 2> lips(const GmshMesh &mesh, const MeshNames &names, const std::string &line)
+{
+   const auto found = names.boundary.find(line);
+   std::vector<std::string> known;
+   for (const auto &[name, attributes] : names.boundary) { known.push_back(name); }
+   require(found != names.boundary.end(), "mesh file has no line '", line,
+           "' to split, must be one of ", known.empty() ? "none" : listed(known));
+   long highest = 0;
+   for (const auto &[name, attributes] : names.boundary)
+   {
+      highest = std::max<long>(highest, attributes[0]);
+   }
+   for (const GmshMesh::Element &element : mesh.elements)
+   {
+      const bool is_line = gmsh_types().at(element.type).corners == 2;
+      if (is_line && !element.tags.empty()) { highest = std::max(highest, element.tags[0]); }
+   }
+   return {found->second[0], highest + 1};
+}
+
 } // namespace
 
 mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const MeshPart &part)
 {
    require(part.name.empty() || is_deck(file), "mesh file has no part '", part.name,
            "': only decks (.inp) have parts");
+   require(part.split.empty() || !is_deck(file), "mesh file has no line '", part.split,
+           "' to split: a deck has none, let two of its parts share the line");
    if (curves) { curves->clear(); }
    std::error_code why_not;
    const auto type = std::filesystem::status(file, why_not).type();
@@ -315,8 +368,13 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
    std::getline(in, line);
    if (is_deck(file) || line.rfind("$MeshFormat", 0) == 0)
    {
-      const GmshMesh mesh = is_deck(file) ? deck_mesh(file, part).mesh : read_gmsh(file, size);
+      GmshMesh mesh = is_deck(file) ? deck_mesh(file, part).mesh : read_gmsh(file, size);
       check_gmsh(mesh);
+      if (!part.split.empty())
+      {
+         const std::array<long, 2> both = lips(mesh, gmsh_names(file), part.split);
+         split_line(mesh, both[0], both[1], part.split);
+      }
       for (const GmshMesh::Element &element : mesh.elements)
       {
          // Those of a deck are this program's own.
@@ -344,6 +402,8 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
               geometry ? ": this is a geometry, which gmsh -2 NAME.geo makes a mesh "
                          "of"
                        : "");
+      require(part.split.empty(), "mesh file has no line '", part.split,
+              "' to split: only Gmsh's files name lines");
       check_mfem(in, size);
    }
    in.close();
@@ -364,28 +424,13 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
 MeshNames mesh_names(const std::string &file, const MeshPart &part)
 {
    if (is_deck(file)) { return deck_mesh(file, part).names; }
-   MeshNames names;
-   std::ifstream in(file, std::ios::binary);
-   std::string line;
-   while (std::getline(in, line) && line.rfind("$PhysicalNames", 0) != 0)
-   {
-      if (line.rfind("$Nodes", 0) == 0) { return names; }
-   }
-   long expected = 0;
-   in >> expected;
-   for (long k = 0; k < expected; ++k)
-   {
-      int dimension = 0, number = 0;
-      in >> dimension >> number;
-      std::getline(in, line);
-      const std::size_t from = line.find('"'), to = line.rfind('"');
-      require(in.good() && from != std::string::npos && to > from, "mesh file: physical group ",
-              k + 1, " of ", expected, " has no name, must be DIMENSION NUMBER \"NAME\"");
-      std::string name = line.substr(from + 1, to - from - 1);
-      std::replace(name.begin(), name.end(), ' ', '_');
-      if (dimension == 1) { names.boundary[name] = {number}; }
-      if (dimension == 2) { names.elements[name] = number; }
-   }
+   MeshNames names = gmsh_names(file);
+   if (part.split.empty()) { return names; }
+   const auto size = static_cast<long>(std::filesystem::file_size(file));
+   const std::array<long, 2> both = lips(read_gmsh(file, size), names, part.split);
+   names.boundary.erase(part.split);
+   names.boundary[part.split + "+"] = {static_cast<int>(both[0])};
+   names.boundary[part.split + "-"] = {static_cast<int>(both[1])};
    return names;
 }
 

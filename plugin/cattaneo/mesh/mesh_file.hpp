@@ -9,13 +9,19 @@
 namespace cattaneo
 {
 
-/// Which body of a deck is meant.
+/// What is taken of a mesh file.
 struct MeshPart
 {
-   /// An instance, or a set of elements; empty: the deck has one body, or `usual` says which.
+   /// Of a deck: an instance, or a set of elements; empty: the deck has one body, or `usual`
+   /// says which.
    std::string name;
    /// Of several instances the one that is called so, if `name` is empty.
    std::string usual = {};
+   /// The name of a line within the body (a physical curve of Gmsh) along which the mesh is
+   /// cut: elements on its two sides have nodes of their own there, but for ends within the
+   /// body, which are tips of the crack. The two lips are boundaries "NAME+", on the left of
+   /// the line as it runs, and "NAME-". Empty: none.
+   std::string split = {};
 };
 
 /** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), Gmsh's 4.1 or
@@ -26,7 +32,8 @@ struct MeshPart
 
     @param curves where it is to be said on which curve of the file (Gmsh's entity) each
    boundary element is, -1: not known; for curve_sides()
-    @param part of a deck; InputError if it is named and the file is none */
+    @param part InputError if it names a body and the file is no deck, or a line to split and
+   the file is not Gmsh's */
 mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr,
                      const MeshPart &part = {});
 
