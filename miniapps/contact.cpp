@@ -17,8 +17,10 @@
 #include "common/contact_edges.hpp"
 #include "common/own_history.hpp"
 #include "contact/joint_report.hpp"
+#include "contact/named_points.hpp"
 #include "contact/own_bodies.hpp"
 #include "contact/own_warnings.hpp"
+#include "contact/reactions.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -57,14 +59,19 @@ struct Snapshots
 struct CaseOptions
 {
    int order = 2;
+   double thickness = none;
    std::string paraview, analysis = "plane strain", geometry = "smooth", bodies, interfaces,
-                         bolts;
+                         bolts, points;
    std::vector<double> edges;
 
    explicit CaseOptions(Study &study)
    {
       study.options().require_version(2);
       study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
+      study.option(&thickness, "thickness",
+                   "Of plane bodies: forces, moments and energies are those of the whole "
+                   "thickness (default: per thickness).",
+                   positive);
       study.option(&geometry, "geometry",
                    "Sides of straight edges: smooth (curves through their vertices where these "
                    "turn as on one) or as meshed (polygons).",
@@ -73,6 +80,9 @@ struct CaseOptions
       study.option(&interfaces, "interfaces", "Where they touch, by names, as JSON.",
                    Text::structure);
       study.option(&bolts, "bolts", "Shanks that pull two parts together, by names, as JSON.",
+                   Text::structure);
+      study.option(&points, "points",
+                   "Where displacements and stresses are asked for, by names, as JSON.",
                    Text::structure);
       study.options().add_set();
       study.option(&order, "order", "Order of the elements.", within(1, 8));
@@ -99,7 +109,7 @@ struct CaseOptions
    {
       return joint_case({analysis, structure("bodies", bodies),
                          structure("interfaces", interfaces), structure("bolts", bolts),
-                         geometry},
+                         structure("points", points), geometry, thickness},
                         order);
    }
 };
@@ -123,21 +133,37 @@ void contact(Study &study)
               !joint.bodies.back().half_plane || !std::isnan(joint.bodies.back().depth),
            "option paraview writes displacements, which on a half-plane are relative to a "
            "depth: ",
-           joint.bodies.back().source.called("depth"), " must state it");
+           joint.bodies.back().source.called("half-plane.depth"), " must state it");
    if (!own.known_elements) { own.scene.bodies.clear(); } // of the others nothing is shown
    ReducedProblem &problem = own.scene.problem();
    require(!problem.patterns.empty(), "there is no load: key 'load' of a body must name one");
    require(options.edges.empty() || (joint.faces.size() == 1 && own.known_elements),
            "option edges is for one interface of bodies with elements, the case has ",
            joint.faces.size(), own.known_elements ? "" : " and a body that is a matrix");
-   require(options.edges.empty() || problem.friction.maxCoeff() > 0,
+   require(options.edges.empty() || (problem.nodes() > 0 && problem.friction.maxCoeff() > 0),
            "option edges needs friction: without it nothing is stuck");
+   history.bolts = own.bolted ? &*own.bolted : nullptr;
    history.begin(problem);
    history.check_times("edges", options.edges);
+   if (!std::isnan(options.thickness))
+   {
+      study.results["thickness"] = options.thickness;
+      study.say(text("   thickness %g: forces, moments and energies are those of the whole "
+                     "thickness",
+                     options.thickness));
+   }
    study.condensed(own.scene);
    study.value("condensation_error_estimate", own.accuracy);
-   study.say(text("   gap %g to %g; relative error of the condensed stiffness: %.2g (estimate)",
-                  problem.gap.minCoeff(), problem.gap.maxCoeff(), own.accuracy));
+   // Of bodies that are tied alone nothing can open or slip: there is no contact node.
+   const bool touches = problem.nodes() > 0;
+   require(
+      touches || !own.bolted,
+      "all interfaces are tied, and bolts have the key 'preload', which is for joints that "
+      "may open or slip: key 'pretension' must be there in its place");
+   study.say((touches
+                 ? text("   gap %g to %g; ", problem.gap.minCoeff(), problem.gap.maxCoeff())
+                 : std::string("   all interfaces are tied; ")) +
+             text("relative error of the condensed stiffness: %.2g (estimate)", own.accuracy));
    warn_of_accuracy(own.accuracy);
    std::deque<SidesThatBear> beyond_corners;
    const std::vector<bool> even = even_sides(joint);
@@ -153,6 +179,8 @@ void contact(Study &study)
       }
       else { beyond_corners.emplace_back(face, own.scene.reduction.bodies); }
    }
+   NamedPoints points(study, joint, own);
+   points.begin(history.state);
    JointReport joint_report(study, joint, own.scene.reduction);
    if (history.state.time > 0) { joint_report.note(history.state, 0); }
    SmallDisplacements small(own.scene.reduction, even);
@@ -180,8 +208,9 @@ void contact(Study &study)
                     snapshots.note(reached);
                     for (auto &side : beyond_corners) { side.note(reached); }
                     joint_report.note(reached, history.cycle);
-                    small.note(reached);
-                    if (reached.p.maxCoeff() > pressed.maxCoeff())
+                    if (touches) { small.note(reached); }
+                    points.note(reached);
+                    if (touches && reached.p.maxCoeff() > pressed.maxCoeff())
                     {
                        pressed = reached.p;
                        away = reached.w;
@@ -196,20 +225,28 @@ void contact(Study &study)
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
-   for (const std::string &said : geometry_warnings(own.scene.reduction, most)) { warn(said); }
-   const ChordalError chords = warn_of_chords(own.scene.reduction, pressed, away);
-   // Less is round-off of sides that are straight.
-   if (chords.at_a_node > 1e-6 && std::isfinite(chords.at_a_node))
+   if (touches)
    {
-      study.value("chords_peak_pressure_change_estimate", chords.of_peak);
-      study.value("chords_node_pressure_change_estimate", chords.at_a_node);
+      for (const std::string &said : geometry_warnings(own.scene.reduction, most))
+      {
+         warn(said);
+      }
+      const ChordalError chords = warn_of_chords(own.scene.reduction, pressed, away);
+      // Less is round-off of sides that are straight.
+      if (chords.at_a_node > 1e-6 && std::isfinite(chords.at_a_node))
+      {
+         study.value("chords_peak_pressure_change_estimate", chords.of_peak);
+         study.value("chords_node_pressure_change_estimate", chords.at_a_node);
+      }
+      warn_of_linear_axis(own.scene.reduction, pressed);
+      warn_of_large_displacements(own, small, history.state);
+      if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
    }
-   warn_of_linear_axis(own.scene.reduction, pressed);
-   warn_of_large_displacements(own, small, history.state);
-   if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
 
    history.report_state(problem, joint_report.of_state(history.state));
    joint_report.report(history.state, history.report);
+   points.report(history.state);
+   report_reactions(study, joint, own, joint_report, history.state);
    history.report_march(problem);
    if (!snapshots.times.empty() && snapshots.complete())
    {
@@ -225,7 +262,7 @@ void contact(Study &study)
       edges.corner = [&](int end) { return own.corner(end); };
       report_edges(study, fretting::read_edges(edges));
    }
-   report_critical_friction(study, problem);
+   if (touches) { report_critical_friction(study, problem); }
 }
 
 } // namespace

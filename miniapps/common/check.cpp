@@ -170,6 +170,15 @@ void list_loads(Study &study, const Scene &scene)
                            plane && force ? settled(moment, all * far) : none});
       }
    }
+   // Of a half-plane: forces far away and bulk stresses, which have no nodes.
+   for (std::size_t k = scene.bodies.size(); k < reduction.bodies.size(); ++k)
+   {
+      if (scene.bodies.empty()) { break; } // their elements are not known
+      for (const LoadPattern &load : reduction.bodies[k].patterns)
+      {
+         study.row(loads, {load.name, heading(reduction, k), "far away", 0, none, none, none});
+      }
+   }
    for (std::size_t k = 0; k < scene.torsion.size(); ++k)
    {
       for (const BodyLoad &load : scene.torsion[k]->patterns())

@@ -40,6 +40,32 @@ void check_start(const ContactState &state, const LoadHistory &history)
            history.piece(history.pieces() - 1).end);
 }
 
+/// Where an arc length is: on the straight way between the two nodes around it, of a closed
+/// line once around where it is beyond its ends. Not known without places: NaN.
+Eigen::Vector2d place_on(const ReducedProblem &problem, const ContactChain &chain, double at)
+{
+   if (problem.position.rows() != problem.nodes() || problem.position.cols() < 2)
+   {
+      return Eigen::Vector2d::Constant(none);
+   }
+   const VectorXd arc = problem.arc_length.segment(chain.first, chain.nodes);
+   const auto place = [&](Eigen::Index i) -> Eigen::Vector2d
+   { return problem.position.row(chain.first + i).head(2); };
+   const Eigen::Index last = chain.nodes - 1;
+   if (last == 0) { return place(0); }
+   if (chain.loop && (at < arc[0] || at > arc[last]))
+   {
+      // The way from the last node to the first one.
+      const double length = (place(0) - place(last)).norm(),
+                   share = (at < arc[0] ? length + at - arc[0] : at - arc[last]) / length;
+      if (share >= 0 && share <= 1) { return place(last) + share * (place(0) - place(last)); }
+      at += at < arc[0] ? arc[last] - arc[0] + length : arc[0] - arc[last] - length;
+   }
+   Eigen::Index i = 0;
+   while (i + 1 < last && arc[i + 1] < at) { ++i; }
+   return place(i) + (at - arc[i]) / (arc[i + 1] - arc[i]) * (place(i + 1) - place(i));
+}
+
 void check_energies(std::initializer_list<double> energies)
 {
    for (double energy : energies)
@@ -183,10 +209,57 @@ void OwnHistory::begin(const ReducedProblem &problem)
    {
       state = load_contact_state(load_state_);
       state.require_of(problem);
-      check_start(state, history_);
+      LoadHistory expected = history_;
+      for (std::size_t b = 0; bolts && b < bolts->bolts().size(); ++b)
+      {
+         // Its load is a force in the history, and a pretension in a state.
+         const Eigen::Index load = bolts->load(b);
+         expected.multipliers.row(load).setConstant(state.multipliers[load]);
+      }
+      check_start(state, expected);
    }
    check_times("frames", wanted_);
 }
+
+namespace
+{
+
+/// Of bodies that are tied alone, which obey no law: the loads of the history, one after the
+/// other. A cycle comes again as it is.
+MarchReport followed(const ReducedProblem &problem, const LoadHistory &history,
+                     ContactState &state, const MarchSettings &settings,
+                     const MarchObserver &note)
+{
+   MarchReport report;
+   report.loss_error.value = 0;
+   report.loss_error.bound = true;
+   for (int k = 0; k < history.pieces(); ++k)
+   {
+      const LoadPiece piece = history.piece(k);
+      for (int i = 1; i <= settings.increments; ++i)
+      {
+         const double share = static_cast<double>(i) / settings.increments,
+                      time = i < settings.increments ? piece.start + share * piece.duration()
+                                                     : piece.end;
+         if (time <= state.time || settings.monitor.stopped()) { continue; }
+         state.time = time;
+         state.multipliers = i < settings.increments ? piece.at(share) : piece.to;
+         IncrementRecord record = record_of(problem, state);
+         record.cycle = piece.cycle;
+         note(state, record);
+      }
+      if (!piece.ends_cycle) { continue; }
+      report.steady_cycle = piece.cycle;
+      report.steady_period = 1;
+      break;
+   }
+   if (settings.monitor.stopped()) { report.status = FrictionStatus::stopped; }
+   report.time = report.event_time = state.time;
+   report.event_multipliers = state.multipliers;
+   return report;
+}
+
+} // namespace
 
 void OwnHistory::check_times(const std::string &option, const std::vector<double> &times) const
 {
@@ -247,7 +320,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (!goes_on || study_.csv().empty()) { continue; }
       zones_in_time.read(name, study_.csv() + "_" + diagram.name() + ".csv", state.time);
    }
-   const bool shown = tables || study_.draws();
+   const bool shown = (tables || study_.draws()) && problem.nodes() > 0;
    if (goes_on && shown && zones_in_time.empty())
    {
       study_.say(
@@ -261,7 +334,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
                       "there is no file of those before",
                       ended));
    }
-   Film *film = study_.film(problem);
+   Film *film = problem.nodes() > 0 ? study_.film(problem) : nullptr;
    std::deque<IncrementRecord> last_increments;
    auto next = wanted_.begin();
    double last_frame = state.time;
@@ -285,7 +358,9 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    settings.monitor = watch.monitor();
    settings.keep_increments = false;
    settings.loss_error = true;
-   report = cattaneo::march(problem, history_, state, settings, note);
+   report = problem.nodes() == 0 ? followed(problem, history_, state, settings, note)
+            : bolts              ? bolts->march(history_, state, settings, note)
+                                 : cattaneo::march(problem, history_, state, settings, note);
    check_energies({report.energy_imbalance, state.dissipation});
    report.increments.assign(last_increments.begin(), last_increments.end());
    // A march that had not been cut would have ended there.
@@ -321,6 +396,7 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
    study_.title(
       text("At time %g%s: ", state.time, report.not_unique ? ", one of several states" : "") +
       more);
+   if (problem.nodes() == 0) { return; } // nothing can open or slip
    study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(), "peak pressure");
    const std::vector<Zone> zones = cattaneo::zones(problem, state);
    const bool one_line = zones.back().chain == 0;
@@ -333,12 +409,20 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                              {"from_error_estimate"},
                              {"to_error_estimate"},
                              {"piece", one_line ? "" : "piece of the line"},
-                             {"interface", names.size() > 1 ? "interface" : ""}});
+                             {"interface", names.size() > 1 ? "interface" : ""},
+                             {"from_x"},
+                             {"from_y"},
+                             {"to_x"},
+                             {"to_y"}});
    for (const Zone &zone : zones)
    {
+      const ContactChain &chain = problem.chains[zone.chain];
+      const Eigen::Vector2d from = place_on(problem, chain, zone.from.position),
+                            to = place_on(problem, chain, zone.to.position);
       study_.row(table, {name(zone.state), zone.from.position, zone.to.position,
                          error_text(std::max(zone.from.error, zone.to.error)), zone.from.error,
-                         zone.to.error, zone.chain + 1, problem.chains[zone.chain].interface});
+                         zone.to.error, zone.chain + 1, chain.interface, from[0], from[1],
+                         to[0], to[1]});
    }
    const Eigen::Index touching = touching_nodes(problem, state);
    study_.results["touching_nodes"] = touching;
@@ -366,6 +450,7 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
 
 void OwnHistory::report_march(const ReducedProblem &problem)
 {
+   if (problem.nodes() == 0) { return; }
    const ordered_json &cycles = report_cycles(study_, problem, report).json();
    study_.results["first_cycle"] = cycles.empty() ? ordered_json(0) : cycles[0]["cycle"];
    study_.results["total_dissipation"] = state.dissipation;

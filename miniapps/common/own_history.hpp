@@ -2,6 +2,7 @@
 
 #include "common/run.hpp"
 
+#include <cattaneo/joints/bolts.hpp>
 #include <cattaneo/output/history.hpp>
 #include <functional>
 #include <string>
@@ -39,6 +40,8 @@ public:
    /// Of the march: cycles, losses, residuals, the changes of an exact path.
    void report_march(const cattaneo::ReducedProblem &problem);
 
+   /// Bolts that the history tightens; must outlive it. Null: there are none.
+   const cattaneo::BoltedJoint *bolts = nullptr;
    cattaneo::MarchSettings settings;
    cattaneo::ContactState state;
    cattaneo::MarchReport report;

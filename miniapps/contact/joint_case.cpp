@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/words.hpp>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -200,15 +201,41 @@ Guide::Along along(const Key &key, bool turns)
    return made;
 }
 
+Guide guide_of(const Key &key)
+{
+   Guide made;
+   if (key.has("x")) { made.x = along(key["x"], false); }
+   if (key.has("y")) { made.y = along(key["y"], false); }
+   if (key.has("rotation")) { made.rotation = along(key["rotation"], true); }
+   if (key.has("centre")) { made.centre = key["centre"].pair(); }
+   return made;
+}
+
 JointCase::Body::Guided guided(const Key &key)
 {
    key.must_be_of({"on", "x", "y", "rotation", "centre"});
-   JointCase::Body::Guided made{key["on"].text(), {}, source(key)};
-   if (key.has("x")) { made.guide.x = along(key["x"], false); }
-   if (key.has("y")) { made.guide.y = along(key["y"], false); }
-   if (key.has("rotation")) { made.guide.rotation = along(key["rotation"], true); }
-   if (key.has("centre")) { made.guide.centre = key["centre"].pair(); }
-   return made;
+   return {key["on"].text(), guide_of(key), source(key)};
+}
+
+/// Loads of a half-plane: "Q bulk-stress 40", of one name they add up.
+std::vector<BulkStress> bulk_stresses(const Key &key)
+{
+   std::vector<BulkStress> all;
+   for (const std::string &statement : split(key.statements(), ";\n"))
+   {
+      const std::string where = key.called() + " '" + statement + "'";
+      const std::vector<std::string> words = split(statement, " \t");
+      require(words.size() == 3 && words[1] == "bulk-stress", where,
+              ": must be PATTERN bulk-stress VALUE, a half-plane has no other loads");
+      require_pattern_name(where, words[0]);
+      const double stress = cattaneo::number(where, words[2]);
+      const auto same =
+         std::find_if(all.begin(), all.end(),
+                      [&](const BulkStress &load) { return load.pattern == words[0]; });
+      if (same == all.end()) { all.push_back({words[0], stress}); }
+      else { same->stress += stress; }
+   }
+   return all;
 }
 
 JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
@@ -218,7 +245,7 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    made.name = name;
    made.source = source(key);
    key.must_be_of({"mesh", "part", "split", "matrix", "deck", "half-plane", "young", "poisson",
-                   "order", "geometry", "expansion", "support", "load", "guides"});
+                   "order", "geometry", "expansion", "support", "load", "guides", "thickness"});
    const bool is_matrix = key.has("matrix") || key.has("deck");
    const int kinds = key.has("mesh") + is_matrix + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
@@ -234,20 +261,20 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    if (key.has("half-plane"))
    {
       goes_without("half-plane", {"part", "split", "young", "poisson", "order", "geometry",
-                                  "expansion", "support", "load", "guides"});
+                                  "expansion", "support", "guides", "thickness"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
-      made.source = source(plane);
       made.young.values = {plane["young"].number(positive)};
       made.poisson.values = {plane["poisson"].number(between(-1, 0.5))};
       if (plane.has("depth")) { made.depth = plane["depth"].number(positive); }
+      if (key.has("load")) { made.bulk = bulk_stresses(key["load"]); }
       return made;
    }
    if (is_matrix)
    {
       goes_without(key.has("matrix") ? "matrix" : "deck",
-                   {"part", "split", "young", "poisson", "expansion", "guides"});
+                   {"part", "split", "young", "poisson", "expansion", "guides", "thickness"});
       if (key.has("deck")) { made.deck = key["deck"].file(); }
       made.matrix = key.has("matrix") ? key["matrix"].file() : matrix_of_deck(made.deck);
    }
@@ -272,6 +299,7 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    }
    made.as_meshed =
       key.has("geometry") ? key["geometry"].choice(geometries) == "as meshed" : as_meshed;
+   if (key.has("thickness")) { made.thickness = key["thickness"].number(positive); }
    if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
    if (key.has("support")) { made.support = key["support"].statements(); }
    if (key.has("load")) { made.load = key["load"].statements(); }
@@ -386,7 +414,7 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
 {
    check_name(key, name);
    key.must_be_of({"between", "friction", "strength", "gap", "slave", "tied", "overlap",
-                   "pairing", "obstacle", "motion"});
+                   "pairing", "obstacle", "motion", "guide"});
    JointCase::Face made;
    made.name = name;
    made.source = source(key);
@@ -413,8 +441,19 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
               ": a motion is that of the rigid obstacle of one side alone");
       made.motions = motions(key["motion"]);
    }
+   if (key.has("guide"))
+   {
+      require(sides.size() == 1 && !key.has("motion"), key.called(),
+              ": a guide is that of the rigid obstacle of one side alone, and goes without the "
+              "key motion");
+      const Key guide = key["guide"];
+      guide.must_be_of({"x", "y", "rotation", "centre"});
+      made.guide = guide_of(guide);
+      require(made.guide->centre || made.guide->rotation.motion == Guide::Motion::held,
+              guide.called(), " lets the obstacle turn, it must have the centre");
+   }
    for (const char *other :
-        {"friction", "strength", "gap", "overlap", "pairing", "obstacle", "motion"})
+        {"friction", "strength", "gap", "overlap", "pairing", "obstacle", "motion", "guide"})
    {
       require(!made.tied || !key.has(other), key.called(), " is tied, it goes without the key ",
               other);
@@ -458,14 +497,15 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
 JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &joint)
 {
    check_name(key, name);
-   key.must_be_of({"between", "direction", "stiffness", "pretension"});
+   key.must_be_of({"between", "direction", "stiffness", "pretension", "preload"});
    JointCase::Bolt made;
    made.name = name;
    made.source = source(key);
    const Key between_ = key["between"];
    const std::vector<Key> ends = between_.list();
-   require(ends.size() == 2, between_.called(), " has ", ends.size(), " ends, must have two");
-   for (int k : {0, 1})
+   require(ends.size() == 1 || ends.size() == 2, between_.called(), " has ", ends.size(),
+           " ends, must have two, or one that is bolted to the ground");
+   for (std::size_t k = 0; k < ends.size(); ++k)
    {
       made.ends[k] = side(ends[k], joint);
       require(!joint.bodies[made.ends[k].body].half_plane, ends[k].called(),
@@ -474,12 +514,42 @@ JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &j
    require(made.ends[0].body != made.ends[1].body || made.ends[0].part != made.ends[1].part,
            between_.called(), ": both ends are '", ends[0].text(),
            "', must be two parts that the shank pulls together");
+   require(
+      ends.size() == 2 || key.has("direction"), key.called(),
+      " is bolted to the ground, it must have a direction, which points from the ground to "
+      "the part that it pulls");
    if (key.has("direction")) { made.direction = key["direction"].pair(); }
    const double length = std::hypot(made.direction[0], made.direction[1]);
    require(length > 0, key.called(), ": its direction is (0, 0), must have a length");
    for (double &x : made.direction) { x /= length; }
    made.stiffness = key["stiffness"].number(positive);
-   made.pretension = key["pretension"].number(positive);
+   require(key.has("pretension") != key.has("preload"), key.called(), " has ",
+           key.has("preload") ? "both" : "none",
+           " of the keys preload and pretension, must have "
+           "one");
+   made.tightened = key.has("preload");
+   made.force = key[made.tightened ? "preload" : "pretension"].number(positive);
+   return made;
+}
+
+/// [x, y], or {"body": "pad", "at": [x, y]}.
+JointCase::Point point(const Key &key, const std::string &name, const JointCase &joint)
+{
+   check_name(key, name);
+   JointCase::Point made;
+   made.name = name;
+   const bool named = key.value().is_object();
+   if (named)
+   {
+      key.must_be_of({"body", "at"});
+      made.body = joint.body(key["body"].text());
+      std::vector<std::string> names;
+      for (const JointCase::Body &each : joint.bodies) { names.push_back(each.name); }
+      require(made.body >= 0, key["body"].called(), ": there is no body '", key["body"].text(),
+              "', must be one of ", listed(names));
+   }
+   const std::array<double, 2> at = (named ? key["at"] : key).pair();
+   made.at = {at[0], at[1]};
    return made;
 }
 
@@ -516,6 +586,12 @@ int JointCase::body(const std::string &name) const
    return -1;
 }
 
+double JointCase::thickness_of(const Face &face) const
+{
+   const double first = thickness_of(face.sides[0].body);
+   return face.sides[1].body < 0 ? first : std::min(first, thickness_of(face.sides[1].body));
+}
+
 ordered_json structure(const std::string &key, const std::string &text)
 {
    try
@@ -547,12 +623,30 @@ JointCase joint_case(const JointKeys &keys, int order)
    // It has no mesh, and is condensed to the lines of those that stand on it.
    std::stable_partition(joint.bodies.begin(), joint.bodies.end(),
                          [](const JointCase::Body &one) { return !one.half_plane; });
+   if (!std::isnan(keys.thickness)) { joint.thickness = keys.thickness; }
+   for (const JointCase::Body &one : joint.bodies)
+   {
+      const bool plane = joint.formulation == Formulation::plane;
+      require(std::isnan(one.thickness) || (plane && !std::isnan(keys.thickness)),
+              one.source.called("thickness"), " is given ",
+              plane ? "and that of the case is not: key 'thickness' must be there, forces are "
+                      "those of the whole thickness then"
+                    : "about an axis, must be left out");
+      require(one.matrix.empty() || joint.thickness == 1, "key 'thickness' is ",
+              joint.thickness, ", and body ", one.name,
+              " is a matrix, which has its thickness in itself: it must be left out");
+   }
+   require(std::isnan(keys.thickness) || joint.formulation == Formulation::plane,
+           "key 'thickness' is given about an axis, must be left out");
    each(keys.interfaces, "interfaces",
         [&](const Key &key, const std::string &name)
         { joint.faces.push_back(face(key, name, joint)); });
    each(keys.bolts, "bolts",
         [&](const Key &key, const std::string &name)
         { joint.bolts.push_back(bolt(key, name, joint)); });
+   each(keys.points, "points",
+        [&](const Key &key, const std::string &name)
+        { joint.points.push_back(point(key, name, joint)); });
    return joint;
 }
 

@@ -4,7 +4,9 @@
 
 #include <cattaneo/elastic/guide.hpp>
 #include <cattaneo/expression.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -53,9 +55,11 @@ struct JointCase
          Source source;
       };
       std::vector<Guided> guides;
-      int order = 0;       ///< of its elements, 0: that of the case, or what a matrix knows
-      double depth = none; ///< of a half-plane
+      int order = 0;           ///< of its elements, 0: that of the case, or what a matrix knows
+      double depth = none;     ///< of a half-plane
+      double thickness = none; ///< if it is not that of all
       bool half_plane = false;
+      std::vector<cattaneo::BulkStress> bulk; ///< of a half-plane, its loads
       /// Its sides are the polygons that they are meshed as, and not smooth curves.
       bool as_meshed = false;
    };
@@ -98,36 +102,61 @@ struct JointCase
       double radius = none;
       std::optional<cattaneo::Expression> curve;
       std::vector<Motion> motions;
+      /// Of a rigid obstacle that is free in some way, or under forces.
+      std::optional<cattaneo::Guide> guide;
       /// Nodes are paired one to one if none is farther off along the contact than this, in
       /// distances of nodes.
       double pairing = none;
    };
-   /// A shank between two parts of boundaries. Its name is that of the load that tightens it.
+   /// A shank between two parts of boundaries, or one part and the ground. Its name is that of
+   /// the load that tightens it.
    struct Bolt
    {
       std::string name;
       Source source;
-      std::array<Side, 2> ends;
+      std::array<Side, 2> ends;              ///< the second of no body: the ground
       std::array<double, 2> direction{0, 1}; ///< from the second end to the first
-      double stiffness = 1, pretension = 1;
+      double stiffness = 1;
+      /// The forces of its load: what it would carry if nothing gave way, or with `tightened`
+      /// what it carries when its tightening ends.
+      double force = 1;
+      bool tightened = false;
+   };
+
+   /// Where displacements and stresses are asked for.
+   struct Point
+   {
+      std::string name;
+      Eigen::Vector2d at{0, 0};
+      int body = -1; ///< -1: in whatever body it is
    };
 
    cattaneo::Formulation formulation = cattaneo::Formulation::plane;
    bool plane_stress = false;
    int order = 2;
+   /// Of the plane: forces are those of this thickness, of bodies that have none of their own.
+   double thickness = 1;
    std::vector<Body> bodies;
    std::vector<Face> faces;
    std::vector<Bolt> bolts;
+   std::vector<Point> points;
 
    int body(const std::string &name) const; ///< its number, -1: none
+   double thickness_of(int body) const
+   {
+      return std::isnan(bodies[body].thickness) ? thickness : bodies[body].thickness;
+   }
+   /// Of what both bodies have: where they touch.
+   double thickness_of(const Face &face) const;
 };
 
 /// What the keys of a case hold; null: it is not there.
 struct JointKeys
 {
    std::string analysis;
-   nlohmann::ordered_json bodies, interfaces, bolts;
+   nlohmann::ordered_json bodies, interfaces, bolts, points;
    std::string geometry = {};
+   double thickness = none; ///< not given: forces are per thickness
 };
 
 /// A key that is said by a text; null if that is empty. InputError if it is not JSON.

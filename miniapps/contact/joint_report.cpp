@@ -95,9 +95,9 @@ std::vector<double> JointReport::shanks(const ContactState &state) const
    for (const JointCase::Bolt &bolt : joint_.bolts)
    {
       const int k = reduction_.problem.pattern(bolt.name);
-      // The pattern's forces are the pretension: so is what its conjugate is multiplied by.
-      forces.push_back(bolt.pretension * state.multipliers[k] -
-                       bolt.stiffness * approach[k] / bolt.pretension);
+      // Its conjugate is how far the ends have come together, times the pattern's force.
+      forces.push_back(bolt.force * state.multipliers[k] -
+                       bolt.stiffness * approach[k] / bolt.force);
    }
    return forces;
 }
@@ -113,7 +113,14 @@ void JointReport::note(const ContactState &state, int cycle)
       Range &range = range_[k];
       const double load =
          std::abs(state.multipliers[reduction_.problem.pattern(joint_.bolts[k].name)]);
-      if (load > range.load) { range = {load, now[k], now[k], range.push}; }
+      if (load > range.load)
+      {
+         range = {load, now[k], now[k], range.push, now[k], now[k]};
+         for (std::size_t other = 0; other < now.size(); ++other)
+         {
+            range_[other].all_tight = now[other];
+         }
+      }
       range.push = std::max(range.push, -now[k]);
       range.least = std::min(range.least, now[k]);
       range.most = std::max(range.most, now[k]);
@@ -211,7 +218,8 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
                                   {"nodes"},
                                   {"free_surface", faces_nothing ? "face nothing" : ""},
                                   {"arm"}});
-   const std::vector<Zone> all_zones = zones(reduction_.problem, state);
+   std::vector<Zone> all_zones;
+   if (reduction_.problem.nodes() > 0) { all_zones = zones(reduction_.problem, state); }
    const CycleRecord *cycle = march.cycles.empty() ? nullptr : &march.cycles.back();
    for (const InterfaceReport &face : reduction_.interfaces)
    {
@@ -284,16 +292,20 @@ void JointReport::report_cycles(const MarchReport &march)
 void JointReport::report_bolts(const ContactState &state)
 {
    ResultTable &table = study_.table("bolts", {{"bolt", "bolt"},
-                                               {"force", "force", "%.6g"},
+                                               {"tightened_to", "tightened to", "%.6g"},
+                                               {"all_tightened", "all tightened", "%.6g"},
+                                               {"force", "force at the end", "%.6g"},
                                                {"least", "least", "%.6g"},
-                                               {"most", "most of the march", "%.6g"}});
+                                               {"most", "most since tightened", "%.6g"}});
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {
       const JointCase::Bolt &bolt = joint_.bolts[k];
-      study_.row(table, {bolt.name, now[k], range_[k].least, range_[k].most});
+      const Range &range = range_[k];
+      study_.row(table,
+                 {bolt.name, range.tight, range.all_tight, now[k], range.least, range.most});
       // Bolts that are still to be tightened give a little with those that are.
-      if (range_[k].push <= 1e-3 * bolt.pretension) { continue; }
+      if (bolt.tightened || range_[k].push <= 1e-3 * bolt.force) { continue; }
       warn(text("bolt '%s' pushes its ends apart, by up to %g: a shank here resists both ways, "
                 "a real one falls loose; tighten it before what brings the ends together, or "
                 "give it more pretension",

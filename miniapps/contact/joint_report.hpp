@@ -23,6 +23,8 @@ public:
    /// Forces of the contact on the first body, of a case with one interface; also in the
    /// results.
    std::string of_state(const cattaneo::ContactState &state);
+   /// Forces of the shanks.
+   std::vector<double> shanks(const cattaneo::ContactState &state) const;
    /// Tables and loops, at the end.
    void report(const cattaneo::ContactState &state, const cattaneo::MarchReport &march);
 
@@ -41,8 +43,6 @@ private:
    std::string body(int b) const;
    /// Do bodies twist about the axis?
    bool twists() const { return !reduction_.torsion.empty(); }
-   /// Forces of the shanks.
-   std::vector<double> shanks(const cattaneo::ContactState &state) const;
    void report_interfaces(const cattaneo::ContactState &state,
                           const cattaneo::MarchReport &march);
    void report_cycles(const cattaneo::MarchReport &march);
@@ -72,6 +72,8 @@ private:
       double load = 0;            ///< the largest multiplier of the bolt's own load so far
       double least = 0, most = 0; ///< since then
       double push = 0;            ///< the most that it pushed its ends apart at any time
+      double tight = 0;           ///< its force when its own tightening ended
+      double all_tight = 0;       ///< and when that of the last bolt did
    };
    std::vector<Range> range_; ///< of each bolt's force
 };

@@ -13,6 +13,24 @@ namespace miniapp
 
 using namespace cattaneo;
 
+namespace
+{
+
+/// Forces of a plane body of this thickness, in place of forces per thickness.
+void multiply(CondensedBody &body, double thickness)
+{
+   if (thickness == 1) { return; }
+   body.S *= thickness;
+   body.H *= thickness;
+   for (LoadPattern &load : body.patterns)
+   {
+      load.q *= thickness;
+      load.p *= thickness;
+   }
+}
+
+} // namespace
+
 OwnBodies make_own_bodies(const JointCase &joint)
 {
    OwnBodies own;
@@ -40,13 +58,15 @@ OwnBodies make_own_bodies(const JointCase &joint)
       std::array<Eigen::Vector2d, 2> ends;
       for (int k : {0, 1})
       {
+         if (bolt.ends[k].body < 0) { continue; } // the ground
          const Eigen::Vector2d along(bolt.direction[0], bolt.direction[1]);
          OwnPart &part = parts[bolt.ends[k].body];
-         // The shank pulls the ends together.
-         const double pull = k == 0 ? -bolt.pretension : bolt.pretension;
+         // The shank pulls the ends together, with forces of a body's own thickness.
+         const double pull =
+            (k == 0 ? -bolt.force : bolt.force) / joint.thickness_of(bolt.ends[k].body);
          ends[k] = part.named([&] { return part.pull(bolt.name, bolt.ends[k], pull * along); });
       }
-      warn_of_push(joint, bolt, ends);
+      if (bolt.ends[1].body >= 0) { warn_of_push(joint, bolt, ends); }
    }
    std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
    std::vector<std::vector<ContactLine>> of_body(parts.size());
@@ -76,6 +96,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
       }
       condensed.push_back(parts[b].named([&] { return parts[b].condensed(line, alike); }));
       own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
+      multiply(condensed.back(), joint.thickness_of(static_cast<int>(b)));
    }
    if (half_planes > 0)
    {
@@ -83,7 +104,8 @@ OwnBodies make_own_bodies(const JointCase &joint)
    }
    else { own.scene.reduction = united(joint, std::move(condensed), lines); }
    if (twists) { own.scene.reduction.add_torsion(condensed_twisting(joint, parts)); }
-   complete(own.scene.reduction, joint, lines);
+   complete(own, joint, lines);
+   for (const OwnPart &part : parts) { own.held.push_back(part.held()); }
    std::vector<SmoothSides> sides;
    for (const OwnPart &part : parts) { sides.push_back(part.sides()); }
    note_smooth_sides(joint, own.scene.reduction, sides);

@@ -91,6 +91,9 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
       level = std::min(level, (one.first.line.each(&LineNode::position) * normal).minCoeff());
    }
    below.normal = -normal;
+   // A bulk stress leaves the middle of the contact where it is.
+   below.bulk = plane.bulk;
+   if (!below.bulk.empty() && !held && !about_axis) { at = box.center(); }
    below.point = at + (level - normal.dot(at)) * normal;
    if (about_axis) { below.point[0] = 0; }
    const bool relative = !about_axis && std::isnan(plane.depth); // to nothing: forces alone
@@ -103,10 +106,12 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
                                         held_share(body, Eigen::Vector2d(0, 1)));
       require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
               body.name, " against it, whose displacements are relative to a depth: ",
-              plane.source.called("depth"), " must state it, or forces alone act on the body");
+              plane.source.called("half-plane.depth"),
+              " must state it, or forces alone act on the body");
    }
-   require(!relative || joint.bolts.empty(), plane.source.called("depth"),
+   require(!relative || joint.bolts.empty(), plane.source.called("half-plane.depth"),
            " must be given beside bolts, whose forces follow displacements");
+   below.thickness = joint.thickness_of(number);
    below.depth = relative ? 1e4 * box.diagonal().norm() : about_axis ? 0 : plane.depth;
    own.scene.reduction = reduce(std::move(bodies), std::move(interfaces), below);
    if (relative) { own.scene.problem().H.resize(0, 0); }

@@ -66,10 +66,50 @@ bool has_shape(const JointCase::Face &face)
    return !face.obstacle.empty() || !std::isnan(face.radius) || face.curve;
 }
 
-/// Loads that move rigid obstacles, of several interfaces if they have one name.
+/// A rigid motion of the obstacle of an interface: along, and a turn about a centre.
+ObstacleMotion rigid(std::size_t interface, const JointCase::Motion &one)
+{
+   return {interface,
+           [one](double, double y) { return one.along[0] - one.angle * (y - one.centre[1]); },
+           [one](double x, double) { return one.along[1] + one.angle * (x - one.centre[0]); }};
+}
+
+/// Loads that move rigid obstacles, of several interfaces if they have one name, and obstacles
+/// that are free to move.
 void move_obstacles(Reduction &reduction, const JointCase &joint)
 {
    std::map<std::string, std::vector<ObstacleMotion>> loads;
+   std::vector<Reduction::FreeMotion> free;
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      const JointCase::Face &face = joint.faces[k];
+      if (!face.guide) { continue; }
+      const std::array<double, 2> at = face.guide->centre.value_or(std::array<double, 2>{});
+      const bool plane = joint.formulation == Formulation::plane;
+      for (const int way : {0, 1, 2})
+      {
+         const Guide::Along &along = way == 0   ? face.guide->x
+                                     : way == 1 ? face.guide->y
+                                                : face.guide->rotation;
+         // About an axis it moves along that alone.
+         const bool said = !along.load.empty();
+         require(plane || way == 1 || !said, face.source.called("guide"),
+                 ": about an axis an obstacle moves along y alone");
+         if (along.motion == Guide::Motion::held || (!plane && way != 1)) { continue; }
+         JointCase::Motion one;
+         one.centre = {at[0], at[1]};
+         if (way < 2) { one.along[way] = 1; }
+         else { one.angle = 1; }
+         if (along.motion == Guide::Motion::displacement)
+         {
+            one.along *= along.value;
+            one.angle *= along.value;
+            loads[along.load].push_back(rigid(k, one));
+         }
+         else { free.push_back({along.load, along.value, {rigid(k, one)}}); }
+      }
+   }
+   if (!free.empty()) { reduction.free_obstacles(free); }
    for (std::size_t k = 0; k < joint.faces.size(); ++k)
    {
       for (const JointCase::Motion &one : joint.faces[k].motions)
@@ -78,11 +118,7 @@ void move_obstacles(Reduction &reduction, const JointCase &joint)
                     (one.along[0] == 0 && one.angle == 0),
                  joint.faces[k].source.called("motion"),
                  ": about an axis an obstacle moves along y alone");
-         loads[one.load].push_back(
-            {k,
-             [one](double, double y) { return one.along[0] - one.angle * (y - one.centre[1]); },
-             [one](double x, double)
-             { return one.along[1] + one.angle * (x - one.centre[0]); }});
+         loads[one.load].push_back(rigid(k, one));
       }
    }
    for (const auto &[load, motions] : loads) { reduction.add_obstacle_motion(load, motions); }
@@ -167,9 +203,10 @@ Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
    return reduce(std::move(condensed), interfaces_of(joint, lines));
 }
 
-void complete(Reduction &reduction, const JointCase &joint,
+void complete(OwnBodies &own, const JointCase &joint,
               const std::vector<std::array<ContactLine, 2>> &lines)
 {
+   Reduction &reduction = own.scene.reduction;
    ReducedProblem &problem = reduction.problem;
    std::vector<std::pair<const JointCase::Face *, std::vector<Eigen::Index>>> laws;
    for (std::size_t k = 0; k < joint.faces.size(); ++k)
@@ -177,6 +214,10 @@ void complete(Reduction &reduction, const JointCase &joint,
       const JointCase::Face &face = joint.faces[k];
       InterfaceReport &report = reduction.interfaces[k];
       report.name = face.name;
+      if (!face.tied)
+      {
+         problem.weights.segment(report.first, report.nodes) *= joint.thickness_of(face);
+      }
       if (face.gap && face.sides[1].body >= 0) // whatever the geometry is
       {
          report.chords.setZero();
@@ -231,11 +272,21 @@ void complete(Reduction &reduction, const JointCase &joint,
          throw InputError(face->source.called("strength") + ": " + error.what());
       }
    }
+   // A bolt that is tightened to a force is a spring only then.
+   std::vector<Bolt> tightened;
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
-      reduction.add_shank(bolt.name, bolt.stiffness / (bolt.pretension * bolt.pretension));
+      const Bolt one{bolt.name, bolt.stiffness / (bolt.force * bolt.force)};
+      if (bolt.tightened) { tightened.push_back(one); }
+      else { reduction.add_shank(one.load, one.stiffness); }
    }
-   move_obstacles(reduction, joint);
+   if (tightened.empty()) { move_obstacles(reduction, joint); }
+   else
+   {
+      own.bolted.emplace(reduction, std::move(tightened),
+                         [&joint](Reduction &made) { move_obstacles(made, joint); });
+      reduction = own.bolted->tightened();
+   }
 }
 
 } // namespace miniapp

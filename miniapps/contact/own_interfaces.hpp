@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/joint_case.hpp"
+#include "contact/own_bodies.hpp"
 
 #include <array>
 #include <vector>
@@ -19,9 +19,9 @@ cattaneo::Reduction united(const JointCase &joint,
                            std::vector<cattaneo::CondensedBody> condensed,
                            const std::vector<std::array<cattaneo::ContactLine, 2>> &lines);
 
-/// Adds what the case says of the interfaces' friction and gaps, of shanks, and of obstacles
+/// Adds what the case says of the interfaces' friction and gaps, of bolts, and of obstacles
 /// that move. InputError naming key and place.
-void complete(cattaneo::Reduction &reduction, const JointCase &joint,
+void complete(OwnBodies &own, const JointCase &joint,
               const std::vector<std::array<cattaneo::ContactLine, 2>> &lines);
 
 } // namespace miniapp

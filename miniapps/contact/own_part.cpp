@@ -93,6 +93,16 @@ void by_attribute(JointCase::Body::Constants &constants, const std::string &key,
    }
 }
 
+/// Forces and moments on a rigid block as the body has them, per thickness.
+Guide per_thickness(Guide guide, double thickness)
+{
+   for (Guide::Along *along : {&guide.x, &guide.y, &guide.rotation})
+   {
+      if (along->motion == Guide::Motion::force) { along->value /= thickness; }
+   }
+   return guide;
+}
+
 /// What a deck says of plane stress or strain, if the case says otherwise; else nothing.
 std::string other_plane_state(const MeshNames &names, bool plane_stress)
 {
@@ -168,14 +178,79 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          own.materials.push_back(materials(made, attributes, joint_.plane_stress));
          elastic_ =
             &own.scene.add(std::move(mesh), order(), own.materials.back(), joint_.formulation);
-         add_supports(*elastic_, body_.source.called("support"), body_.support, terms_);
+         for (const std::string &one : split(body_.support, " ;\t\n"))
+         {
+            hold("support", one, [&] { add_supports(*elastic_, support, one, terms_); });
+         }
          for (const JointCase::Body::Guided &each : body_.guides)
          {
-            elastic_->guide(boundary_part(each.source.called("on"), each.on, terms_),
-                            each.guide);
+            hold("guide", each.on,
+                 [&]
+                 {
+                    elastic_->guide(boundary_part(each.source.called("on"), each.on, terms_),
+                                    per_thickness(each.guide, joint_.thickness_of(b)));
+                 });
          }
-         add_loads(*elastic_, body_.source.called("load"), body_.load, terms_);
+         for (const std::string &one : split(body_.load, ";\n"))
+         {
+            hold("displacement", split(one, " \t")[0],
+                 [&] { add_loads(*elastic_, body_.source.called("load"), one, terms_); });
+         }
       });
+}
+
+std::vector<int> OwnPart::fixed() const
+{
+   if (nodal_) { return nodal_->fixed; }
+   const mfem::Array<int> dofs = elastic_->essential_dofs();
+   return {dofs.begin(), dofs.end()};
+}
+
+template <class Hold>
+void OwnPart::hold(const std::string &kind, const std::string &name, Hold hold)
+{
+   const std::vector<int> before = fixed();
+   hold();
+   const std::vector<int> after = fixed();
+   Holding made{kind, name, {}};
+   std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                       std::back_inserter(made.dofs));
+   if (!made.dofs.empty()) { holdings_.push_back(std::move(made)); }
+}
+
+HeldBody OwnPart::held() const
+{
+   HeldBody made;
+   made.holdings = holdings_;
+   if (nodal_)
+   {
+      const AssembledBody body = nodal_->body();
+      made.K = body.K;
+      made.component = body.places.component;
+      for (std::size_t dof = 0; dof < made.component.size(); ++dof)
+      {
+         made.place.emplace_back(body.places.x[dof], body.places.y[dof]);
+      }
+      made.loads = body.loads;
+      made.supports_left_out = nodal_->supports_left_out || !body.eliminated().empty();
+   }
+   if (!elastic_ || elastic_->ranks().distributed()) { return made; }
+   made.K = elastic_->shared_stiffness();
+   made.component.resize(elastic_->space().GetTrueVSize());
+   made.place.resize(made.component.size());
+   const mfem::DenseMatrix &places = elastic_->node_coordinates();
+   for (int node = 0; node < places.Width(); ++node)
+   {
+      for (const int c : {0, 1})
+      {
+         const int dof = elastic_->true_dof(node, c);
+         if (dof < 0) { continue; }
+         made.component[dof] = c;
+         made.place[dof] = {places(0, node), places(1, node)};
+      }
+   }
+   made.loads = elastic_->patterns();
+   return made;
 }
 
 void OwnPart::make_of_matrix(NodalStiffness matrix)
@@ -192,8 +267,19 @@ void OwnPart::make_of_matrix(NodalStiffness matrix)
       !nodal_->edges.empty() || body_.order > 0, "its elements are not known: ", key,
       " must say the order of those along the sets, whose nodes are then in a row with the "
       "body on their left");
-   add_supports(*nodal_, body_.source.called("support"), body_.support);
-   add_loads(*nodal_, body_.source.called("load"), body_.load, body_.order);
+   if (!nodal_->fixed.empty())
+   {
+      holdings_.push_back({"support", "of the deck", nodal_->fixed});
+   }
+   for (const std::string &one : split(body_.support, " ;\t\n"))
+   {
+      hold("support", one, [&] { add_supports(*nodal_, body_.source.called("support"), one); });
+   }
+   for (const std::string &one : split(body_.load, ";\n"))
+   {
+      hold("displacement", split(one, " \t")[0],
+           [&] { add_loads(*nodal_, body_.source.called("load"), one, body_.order); });
+   }
 }
 
 void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
@@ -232,7 +318,9 @@ bool OwnPart::has_load(const std::string &load) const
    const auto named = [&](const BodyLoad &one) { return one.name == load; };
    const auto has = [&](const std::vector<BodyLoad> &loads)
    { return std::any_of(loads.begin(), loads.end(), named); };
-   return (nodal_ && has(nodal_->loads)) || (elastic_ && has(elastic_->patterns()));
+   return (nodal_ && has(nodal_->loads)) || (elastic_ && has(elastic_->patterns())) ||
+          std::any_of(body_.bulk.begin(), body_.bulk.end(),
+                      [&](const BulkStress &one) { return one.pattern == load; });
 }
 
 Eigen::Vector2d OwnPart::pull(const std::string &load, const JointCase::Side &end,

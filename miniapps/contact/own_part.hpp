@@ -31,6 +31,8 @@ public:
    cattaneo::CondensedBody condensed(const cattaneo::ContactLine &line,
                                      const cattaneo::CondensedBody *alike) const;
    const cattaneo::SmoothSides &sides() const { return sides_; }
+   /// When all loads are there, shanks among them.
+   HeldBody held() const;
    /// Is something said of what happens around the axis?
    bool twists() const { return cattaneo::twists(body_.support, body_.load); }
    /// To the nodes of its sides of interfaces, in their order.
@@ -53,6 +55,10 @@ public:
 
 private:
    void make_of_mesh(OwnBodies &own, int b);
+   std::vector<int> fixed() const;
+   /// Does what holds something; all that was free before is its.
+   template <class Hold>
+   void hold(const std::string &kind, const std::string &name, Hold hold);
    /// Boundary attributes of the body's sides of interfaces; of slits: on which it meets
    /// itself.
    std::vector<int> of_sides(int b, bool slits = false) const;
@@ -64,6 +70,7 @@ private:
    std::optional<cattaneo::NodalStiffness> nodal_;
    cattaneo::BodyTerms terms_;
    cattaneo::SmoothSides sides_; ///< of the mesh, and what was done to it
+   std::vector<Holding> holdings_;
 };
 
 /// Of bodies that are matrices each takes the part of its file that has the sets which its

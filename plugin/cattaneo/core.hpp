@@ -29,6 +29,7 @@
 #include <cattaneo/halfplane/half_space.hpp>
 #include <cattaneo/halfplane/half_space_vtu.hpp>
 #include <cattaneo/halfplane/heights.hpp>
+#include <cattaneo/joints/bolts.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/readout/areas.hpp>
 #include <cattaneo/readout/small_displacements.hpp>

@@ -21,6 +21,7 @@ from . import (
 )
 from ._core import (
     BlasKernels as BlasKernels,
+    BoltedJoint as BoltedJoint,
     CondensedBody as CondensedBody,
     ContactLine as ContactLine,
     ContactState as ContactState,

@@ -5,6 +5,7 @@
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/halfplane/half_plane_field.hpp>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
@@ -71,7 +72,8 @@ void bind_half_planes(nb::module_ &m)
       .def(
          "__init__",
          [](HalfPlane *self, const Material &material, double depth, Numbers point,
-            Numbers normal, std::optional<bool> symmetric, const NamedNumbers &forces)
+            Numbers normal, std::optional<bool> symmetric, const NamedNumbers &forces,
+            const NamedLoads &bulk)
          {
             HalfPlane body{material,
                            finite(depth, "depth"),
@@ -80,6 +82,10 @@ void bind_half_planes(nb::module_ &m)
                            {},
                            {}};
             if (symmetric) { body.symmetric = *symmetric; }
+            for (const auto &[name, stress] : bulk)
+            {
+               body.bulk.push_back({name, finite(stress, ("bulk['" + name + "']").c_str())});
+            }
             for (const auto &[name, force] : by_names(forces, "forces"))
             {
                body.forces.push_back({name, vector(force, "forces['" + name + "']", 2)});
@@ -88,7 +94,7 @@ void bind_half_planes(nb::module_ &m)
          },
          arg("material"), arg("depth") = 0.0, arg("point") = nb::make_tuple(0.0, 0.0),
          arg("normal") = nb::make_tuple(0.0, -1.0), arg("symmetric") = nb::none(),
-         arg("forces") = nb::dict(),
+         arg("forces") = nb::dict(), arg("bulk") = nb::dict(),
          "depth: of the plane, > 0: displacements are relative to the point at this depth "
          "below "
          "each force; what given forces do to a contact does not depend on it. At least twice "
@@ -96,7 +102,10 @@ void bind_half_planes(nb::module_ &m)
          "symmetric: of the plane, that the line through the point along the normal is one of "
          "symmetry (half a model). It must be said where a contact line ends at a held node.\n"
          "point: of the surface. normal: into the half-plane, a unit vector.\n"
-         "forces: by name, (x, y), from far away; without any it is held.")
+         "forces: by name, (x, y), from far away; without any it is held.\n"
+         "bulk: by name, uniform stresses along the surface, tension positive; about an axis "
+         "the same in all directions. The point stays where it is. A name may have a force as "
+         "well.")
       .def_ro("material", &HalfPlane::material)
       .def_ro("depth", &HalfPlane::depth)
       .def("__repr__",
@@ -157,10 +166,13 @@ void bind_half_planes(nb::module_ &m)
       "contact nodes, by closed forms.")
       .def(
          "__init__",
-         [](Field *self, const HalfPlane &body, const ContactLine &line, Numbers forces)
-         { new (self) Field(body, line, vector(forces, "forces", 2 * line.size())); },
-         arg("body"), arg("line"), arg("forces"),
-         "line: of the condensed half-plane. forces: {q; p} on its nodes in their frames.")
+         [](Field *self, const HalfPlane &body, const ContactLine &line, Numbers forces,
+            double bulk)
+         { new (self) Field(body, line, vector(forces, "forces", 2 * line.size()), bulk); },
+         arg("body"), arg("line"), arg("forces"), arg("bulk") = 0.0,
+         "line: of the condensed half-plane. forces: {q; p} on its nodes in their frames. "
+         "bulk: "
+         "uniform stress along the surface that acts beside them, tension positive.")
       .def(
          "at",
          [](const Field &self, Numbers points)

@@ -7,6 +7,8 @@
 #include "module.hpp"
 #include "watch.hpp"
 #include <cattaneo/friction/history_statements.hpp>
+#include <cattaneo/joints/bolts.hpp>
+#include <cattaneo/words.hpp>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/variant.h>
 #include <sstream>
@@ -60,10 +62,14 @@ March march_of(const ReducedProblem &problem)
    return march;
 }
 
-March march_from(const ReducedProblem &problem, const History &history,
-                 const ContactState *state, MarchSettings settings, bool keep_states,
-                 const Observer &observer, const ProgressLike &progress, const StopLike &stop,
-                 const nb::kwargs &members)
+/// What marches a state along a history: march() of a problem, or of a joint with bolts.
+using Marcher = std::function<MarchReport(const LoadHistory &, ContactState &,
+                                          const MarchSettings &, const MarchObserver &)>;
+
+March march_by(const Marcher &marcher, const ReducedProblem &problem, const History &history,
+               const ContactState *state, MarchSettings settings, bool keep_states,
+               const Observer &observer, const ProgressLike &progress, const StopLike &stop,
+               const nb::kwargs &members)
 {
    set_members(settings, members);
    March march = march_of(problem);
@@ -80,9 +86,7 @@ March march_from(const ReducedProblem &problem, const History &history,
       watch.ask(); // an observer that ends the march ends it here
    };
    const MarchObserver watched = keep_states || observer ? each : MarchObserver();
-   const ReducedProblem copy = problem; // that no other thread changes meanwhile
-   march.report =
-      unlocked([&] { return cattaneo::march(copy, loads, march.state, settings, watched); });
+   march.report = unlocked([&] { return marcher(loads, march.state, settings, watched); });
    warn_of("march", march.report);
    if (march.report.status == FrictionStatus::converged &&
        march.report.counters.increments == 0)
@@ -91,6 +95,33 @@ March march_from(const ReducedProblem &problem, const History &history,
            exact_text(march.report.time) + ", at the end of the history or beyond it");
    }
    return march;
+}
+
+March march_from(const ReducedProblem &problem, const History &history,
+                 const ContactState *state, const MarchSettings &settings, bool keep_states,
+                 const Observer &observer, const ProgressLike &progress, const StopLike &stop,
+                 const nb::kwargs &members)
+{
+   // A copy, that no other thread changes meanwhile.
+   const Marcher marcher = [copy = problem](const LoadHistory &loads, ContactState &at,
+                                            const MarchSettings &how, const MarchObserver &each)
+   { return cattaneo::march(copy, loads, at, how, each); };
+   return march_by(marcher, problem, history, state, settings, keep_states, observer, progress,
+                   stop, members);
+}
+
+March march_with_bolts(const BoltedJoint &self, const History &history,
+                       const ContactState *state, const MarchSettings &settings,
+                       bool keep_states, const Observer &observer, const ProgressLike &progress,
+                       const StopLike &stop, const nb::kwargs &members)
+{
+   // The Python object of its problem, which the report names.
+   const nb::object problem = nb::find(self).attr("problem");
+   const Marcher marcher = [&self](const LoadHistory &loads, ContactState &at,
+                                   const MarchSettings &how, const MarchObserver &each)
+   { return self.march(loads, at, how, each); };
+   return march_by(marcher, nb::cast<const ReducedProblem &>(problem), history, state, settings,
+                   keep_states, observer, progress, stop, members);
 }
 
 std::string brief(const March &self)
@@ -460,6 +491,58 @@ void bind_marches(nb::module_ &m)
       "ends the march with status 'stopped' and what there is.\n\n"
       "An outcome other than 'converged' is warned of (OutcomeWarning) and stands in the "
       "report.");
+   using Joint = BoltedJoint;
+   nb::class_<Joint>(
+      m, "BoltedJoint",
+      "Bolts that a load history tightens, each to a force: before that it does "
+      "nothing, afterwards it is a spring. Each loses what the others' tightening "
+      "takes from it.")
+      .def(
+         "__init__",
+         [](Joint *self, const Reduction &loose, const NamedLoads &bolts)
+         {
+            std::vector<Bolt> all;
+            for (const auto &[load, stiffness] : bolts) { all.push_back({load, stiffness}); }
+            new (self) Joint(loose, std::move(all));
+         },
+         arg("loose"), arg("bolts"),
+         "loose: the reduction of all bodies, its gaps and friction set, in which the load of "
+         "each bolt is of forces on its two ends that are each other's opposite.\n"
+         "bolts: the stiffness of each, force over displacement of a load whose forces add up "
+         "to 1 on either end; of F in their place stiffness / F².")
+      .def_prop_ro(
+         "problem", [](const Joint &self) -> const ReducedProblem & { return self.problem(); },
+         nb::rv_policy::reference_internal, "with all bolts as springs: states are of this")
+      .def("tightened", &Joint::tightened,
+           "The reduction with all bolts as springs, for fields.")
+      .def(
+         "forces",
+         [](const Joint &self, const ContactState &state)
+         {
+            const Eigen::VectorXd forces = self.forces(state);
+            nb::dict all;
+            for (std::size_t b = 0; b < self.bolts().size(); ++b)
+            {
+               all[nb::cast(self.bolts()[b].load)] = forces[static_cast<Index>(b)];
+            }
+            return all;
+         },
+         arg("state"), nb::sig("def forces(self, state: ContactState) -> dict[str, float]"),
+         "By name, in units of the forces of the bolts' loads.")
+      .def(
+         "march", &march_with_bolts, arg("history"), arg("state") = nb::none(), nb::kw_only(),
+         arg("settings") = told, arg("keep_states") = false, arg("observer") = nb::none(),
+         arg("progress") = false, arg("stop") = nb::none(), arg("members"),
+         "As march(), with histories in which the multiplier of a bolt's load is its force at "
+         "the end of the piece in which it changes. In states it is its pretension. A bolt "
+         "that would push ends the march with status 'stopped' where its force is zero.")
+      .def("__repr__",
+           [](const Joint &self)
+           {
+              std::vector<std::string> names;
+              for (const Bolt &bolt : self.bolts()) { names.push_back("'" + bolt.load + "'"); }
+              return "<BoltedJoint: " + listed(names) + ">";
+           });
    m.def(
       "conjugates",
       [](const ReducedProblem &problem, const ContactState &state)

@@ -501,3 +501,55 @@ def test_gaps_are_of_curves_unless_as_meshed(order):
     assert np.abs(gap() - clearance).max() > 0.5 * chord
     with pytest.raises(TypeError):
         lines[0].as_meshed = "yes"
+
+
+def test_a_bolt_that_is_tightened():
+    """A column of compliance 3/8 with a bolt of stiffness 4 through it, tightened to 2, then pressed by 1: it gives 4 · 3/8 / (1 + 4 · 3/8) of
+    it, and is nothing before it is tightened."""
+    bodies, lines = column(1.0, 2.0)
+    bodies[1].add_traction("bolt", bodies[1].places[:, 1] == 3.0, (0, -1))
+    bodies[0].add_traction("bolt", bodies[0].places[:, 1] == 0.0, (0, 1))
+    below, joint = lines[0]
+    above = lines[1][0]
+    condensed = [cattaneo.condense(bodies[0], cattaneo.joined([below, joint])), cattaneo.condense(bodies[1], above)]
+    loose = cattaneo.reduce(condensed, [cattaneo.Interface("floor", (0, below)), cattaneo.Interface("joint", (1, above), (0, joint))])
+    loose.problem.friction = 0.2
+    joined = cattaneo.BoltedJoint(loose, {"bolt": 4.0})
+    assert repr(joined) == "<BoltedJoint: 'bolt'>"
+    points = [{}, {"P": 1}, {"bolt": 2}, {"P": 2}]
+    report = joined.march(points, increments=2, keep_states=True)
+    assert report.status == "converged"
+    forces = {state.time: joined.forces(state)["bolt"] for state in report.states}
+    assert forces[1.0] == pytest.approx(0.0, abs=1e-12)
+    assert forces[2.0] == pytest.approx(2.0)
+    assert forces[3.0] == pytest.approx(2.0 - 1.5 / 2.5)
+    assert joined.tightened().displacement(1, report.state).shape == (len(bodies[1].places) * 2,)
+    history = cattaneo.LoadHistory.through(joined.problem, points)
+    again = joined.march(history, report.states[2])
+    assert again.state.v == pytest.approx(report.state.v, abs=1e-10)
+    with pytest.warns(cattaneo.OutcomeWarning, match="would push"):
+        pushed = joined.march([{}, {"bolt": 2}, {"P": 5}])
+    assert pushed.status == "stopped"
+    number = [load.name for load in joined.problem.patterns].index("P")
+    assert pushed.event_multipliers[number] == pytest.approx(2.0 / 0.6)
+    with pytest.raises(cattaneo.InputError, match="the bolt 'bolt' is never tightened"):
+        joined.march([{}, {"P": 1}])
+
+
+def test_bulk_stress_of_a_half_plane():
+    """Where no force acts the surface is strained by σ (1 - ν²)/E; inside the stress is uniform."""
+    ground = cattaneo.HalfPlane(cattaneo.Material(8.0, 0.3), depth=100.0, bulk={"Q": 3.0})
+    body = cattaneo.condense(ground, [0.0, 0.5, 2.0], order=2)
+    (pattern,) = cattaneo.reduce(body).problem.patterns
+    assert pattern.name == "Q"
+    moved = np.linalg.solve(body.S, -np.concatenate([pattern.q, pattern.p]))
+    nodes = len(pattern.p)
+    strain = 3.0 * (1 - 0.09) / 8.0
+    assert np.sort(abs(moved[:nodes])) == pytest.approx(np.array([0, 0.25, 0.5, 1.25, 2.0]) * strain)
+    assert moved[nodes:] == pytest.approx(np.zeros(nodes), abs=1e-12)
+    field = cattaneo.HalfPlaneField(ground, body.line, np.zeros(2 * nodes), bulk=3.0)
+    displacement, stress = field.at([[1.0, -2.0]])
+    assert stress[0] == pytest.approx([3.0, 0.0, 0.0], abs=1e-12)
+    assert displacement[0] == pytest.approx([strain, 2.0 * 0.3 / 0.7 * strain])
+    with pytest.raises(cattaneo.InputError, match="bulk"):
+        cattaneo.HalfPlane(cattaneo.Material(8.0, 0.3), depth=100.0, bulk={"Q": float("nan")})

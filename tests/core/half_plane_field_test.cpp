@@ -168,6 +168,51 @@ TEST(HalfPlaneField, HertzPressedAndSheared)
    }
 }
 
+/// A bulk stress: uniform, with the strains of Hooke's law, turned with the surface.
+TEST(HalfPlaneField, BulkStressIsUniform)
+{
+   for (const PlaneState state : {PlaneState::strain, PlaneState::stress})
+   {
+      HalfPlane body = half_plane();
+      body.material.state = state;
+      body.point = {0.3, 2};
+      const double nu = body.material.poisson, E = body.material.young, stress = 1.5,
+                   zz = state == PlaneState::strain ? nu * stress : 0;
+      for (const bool upright : {false, true})
+      {
+         if (upright) { body.normal = {1, 0}; }
+         ContactLine line = straight_line({-1, 0, 1}, 2);
+         for (LineNode &node : line.nodes)
+         {
+            node.position =
+               body.point + (upright ? Vector2d(0, node.position[0]) : node.position);
+            if (upright) { node.tangent = {0, -1}; }
+         }
+         for (auto &element : line.chains[0].elements)
+         {
+            for (Index a = 0; a < element.points.cols(); ++a)
+            {
+               const double x = element.points(0, a);
+               element.points.col(a) = body.point + (upright ? Vector2d(0, x) : Vector2d(x, 0));
+            }
+         }
+         const HalfPlaneField field(body, line, VectorXd::Zero(2 * line.size()), stress);
+         const Vector2d from = upright ? Vector2d(0.5, 0.2) : Vector2d(0.2, -0.5);
+         const Point at = field.at(body.point + from);
+         const int along = upright ? 1 : 0;
+         EXPECT_NEAR(along ? at.yy : at.xx, stress, 1e-14);
+         EXPECT_NEAR(along ? at.xx : at.yy, 0, 1e-14);
+         EXPECT_NEAR(at.xy, 0, 1e-14);
+         EXPECT_NEAR(at.displacement[along], (stress - nu * zz) / E * from[along], 1e-14);
+         EXPECT_NEAR(at.displacement[1 - along], -nu * (stress + zz) / E * from[1 - along],
+                     1e-14);
+      }
+   }
+   const ContactLine line = condense(half_plane(), {0.0, 1.0}, 1).line;
+   expect_input_error([&] { HalfPlaneField(half_plane(), line, VectorXd::Zero(4), NAN); },
+                      "the bulk stress is nan, must be finite");
+}
+
 TEST(HalfPlaneField, APlaneOfSymmetryIsAMirror)
 {
    HalfPlane whole = half_plane(), half = whole;

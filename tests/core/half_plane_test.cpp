@@ -601,6 +601,159 @@ TEST(HalfPlane, FarForcesPressAndShear)
    EXPECT_NEAR(conjugates(problem, state)[0] / load * R, 1, 1e-3);
 }
 
+/// Two equal half-planes in a parabola, E' = 1, pressed to |x| < 1, then sheared by `shear` f P
+/// while the lower one is pulled by a stress that grows with the shear, to `shift` times 4 f
+/// p0.
+struct FrettedPair
+{
+   double shear = 0.5, shift = 0;
+   HalfPlane upper = half_plane(0.91, 0.3), lower = upper;
+   ReducedProblem problem;
+   ContactState state;
+   bool both_ways = false; ///< was there slip forward and backward at once?
+   const double f = 0.4, P = M_PI / 8, p0 = 2 * P / M_PI; // R = 1
+
+   FrettedPair(double shear_, double shift_, const std::vector<NamedLoads> &then = {})
+      : shear(shear_), shift(shift_)
+   {
+      upper.normal = {0, 1};
+      upper.forces = {{"P", {0, -P}}, {"Q", {shear * f * P, 0}}};
+      lower.bulk = {{"Q", shift * 4 * f * p0}};
+      problem = reduce(condense(upper, even(-1.25, 1.25, 100), 2), lower).problem;
+      problem.gap = problem.position.col(0).cwiseAbs2() / 2;
+      set_friction(problem, f);
+      state = ContactState::virgin(problem);
+      std::vector<NamedLoads> points{{}, {{"P", 1}}, {{"P", 1}, {"Q", 1}}};
+      points.insert(points.end(), then.begin(), then.end());
+      const MarchReport report =
+         march(problem, LoadHistory::through(problem, points), state, {},
+               [&](const ContactState &, const IncrementRecord &record)
+               { both_ways |= record.forward_slip > 0 && record.backward_slip > 0; });
+      EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
+      EXPECT_LT(std::abs(report.energy_imbalance), 1e-3);
+   }
+   /// Where its stick zone begins and ends along x.
+   std::array<double, 2> stick() const
+   {
+      const Zone zone = widest_zone(zones(problem, state), NodeState::stick);
+      const VectorXd x = problem.position.col(0);
+      const double way = x[1] > x[0] ? 1 : -1;
+      const auto place = [&](const ZoneBorder &at)
+      { return x[0] + way * (at.position - problem.arc_length[0]); };
+      const double from = place(zone.from), to = place(zone.to);
+      return {std::min(from, to), std::max(from, to)};
+   }
+};
+
+// Nowell and Hills: under Q that pushes the pad along x and a tension σ of what it stands on,
+// both in proportion, the stick zone |x - e| < c has c = a √(1 - Q/fP), e = a σ/(4 f p0), as
+// long as it stays inside of the contact on the whole way: 1 - √(1 - λ Q/fP) >= λ e/a for all λ
+// from 0 to 1, that is e/a <= Q/2fP. Beyond that an edge slips back from the beginning.
+// Unloaded or reversed both are those of half the change of Q and of σ (Masing).
+TEST(HalfPlane, BulkStressMovesTheStickZone)
+{
+   const double spacing = 2.5 / 200;
+   for (const double sign : {1.0, -1.0})
+   {
+      const FrettedPair pair(0.6, 0.2 * sign);
+      const double c = std::sqrt(1 - 0.6);
+      const auto [from, to] = pair.stick();
+      EXPECT_NEAR(0.5 * (from + to), 0.2 * sign, 0.1 * spacing);
+      EXPECT_NEAR(0.5 * (to - from), c, 0.2 * spacing);
+      const std::string name = sign > 0 ? "step" : "opposition";
+      cattaneo_test::record("shift_in_" + name, 0.5 * (from + to));
+      cattaneo_test::record("stick_in_" + name, 0.5 * (to - from));
+      const FrettedPair back(0.6, 0.2 * sign, {{{"P", 1}, {"Q", -1}}});
+      const auto [low, high] = back.stick();
+      EXPECT_NEAR(0.5 * (low + high), 0.2 * sign, 0.1 * spacing);
+      EXPECT_NEAR(0.5 * (high - low), c, 0.2 * spacing);
+      const FrettedPair half(0.6, 0.2 * sign, {{{"P", 1}, {"Q", 0}}});
+      const auto [left, right] = half.stick();
+      EXPECT_NEAR(0.5 * (left + right), 0.1 * sign, 0.1 * spacing);
+      EXPECT_NEAR(0.5 * (right - left), std::sqrt(1 - 0.3), 0.2 * spacing);
+   }
+   // Both senses of slip are there on the way once the stick zone reaches the edge on it, and
+   // none before. (Slip back begins in no more than the last elements: a third above.)
+   EXPECT_FALSE(FrettedPair(0.6, 0.97 * 0.3).both_ways);
+   EXPECT_TRUE(FrettedPair(0.6, 1.3 * 0.3).both_ways);
+   EXPECT_FALSE(FrettedPair(0.3, -0.97 * 0.15).both_ways);
+   EXPECT_TRUE(FrettedPair(0.3, -1.3 * 0.15).both_ways);
+}
+
+/// Under a bulk stress alone the surface has the strain of Hooke's law, and the loads of a
+/// half-plane obey Maxwell's rule: what one moves per unit of the other is the same both ways.
+TEST(HalfPlane, BulkStressStrainsTheSurface)
+{
+   const double E = 2, nu = 0.3, stress = 0.7;
+   struct Kind
+   {
+      PlaneState state;
+      Formulation formulation;
+      double strain;
+   };
+   for (const Kind &kind : {Kind{PlaneState::strain, Formulation::plane, (1 - nu * nu) / E},
+                            Kind{PlaneState::stress, Formulation::plane, 1 / E},
+                            Kind{PlaneState::strain, Formulation::axisymmetric, (1 - nu) / E}})
+   {
+      const bool plane = kind.formulation == Formulation::plane;
+      HalfPlane body = half_plane(E, nu, kind.state);
+      body.bulk = {{"B", stress}};
+      if (plane) { body.point = {0.6, 0}; }
+      const CondensedBody alone = condense(body, straight_line(uneven, 3, kind.formulation));
+      const Index n = alone.line.size();
+      ASSERT_EQ(alone.patterns.size(), 1u);
+      VectorXd f(2 * n);
+      f << alone.patterns[0].q, alone.patterns[0].p;
+      const VectorXd u = solved(alone.S, -f);
+      for (Index i = 0; i < n; ++i)
+      {
+         const LineNode &node = alone.line.nodes[i];
+         const double x = node.position[0] - body.point[0];
+         EXPECT_NEAR(u[i] * node.tangent[0], stress * kind.strain * x, 1e-12);
+         EXPECT_NEAR(u[n + i], 0, 1e-12);
+      }
+      // With a far force of the same name as one of two bulk stresses.
+      body.forces = {{"P", {0, 3}}, {"B", {0, -2}}};
+      body.bulk.push_back({"C", 5});
+      const CondensedBody all = condense(body, straight_line(uneven, 3, kind.formulation));
+      ASSERT_EQ(all.patterns.size(), 3u);
+      EXPECT_LT((all.H - all.H.transpose()).cwiseAbs().maxCoeff(),
+                1e-13 * all.H.cwiseAbs().maxCoeff());
+      // By energies: with u given, ½ (u - R y - u₀ λ)ᵀ S (…) - λ F y at its least over y.
+      HalfPlane held = body;
+      held.forces.clear();
+      held.bulk.clear();
+      const CondensedBody fixed = condense(held, straight_line(uneven, 3, kind.formulation));
+      const VectorXd sunk = fixed.rigid_motions().col(plane ? 1 : 0);
+      const VectorXd given = VectorXd::LinSpaced(2 * n, -1, 2);
+      const Eigen::Vector3d loads(0.3, -0.4, 0.2); // of P, B and C
+      const VectorXd strained = u / stress * (stress * loads[1] + 5 * loads[2]);
+      // About an axis it goes along that alone; in the plane sideways as well, without a force.
+      MatrixXd R(2 * n, plane ? 2 : 1);
+      R.col(0) = sunk;
+      if (plane) { R.col(1) = fixed.rigid_motions().col(0); }
+      VectorXd F = VectorXd::Zero(R.cols());
+      F[0] = 3 * loads[0] - 2 * loads[1];
+      const VectorXd y =
+         solved(R.transpose() * fixed.S * R, F + R.transpose() * fixed.S * (given - strained));
+      const VectorXd moved = fixed.S * (given - R * y - strained);
+      VectorXd found = all.S * given, conjugate = all.H * loads;
+      for (Index k = 0; k < 3; ++k)
+      {
+         found.head(n) += loads[k] * all.patterns[k].q;
+         found.tail(n) += loads[k] * all.patterns[k].p;
+         conjugate[k] -=
+            all.patterns[k].q.dot(given.head(n)) + all.patterns[k].p.dot(given.tail(n));
+      }
+      const double size = moved.cwiseAbs().maxCoeff();
+      EXPECT_LT((found - moved).cwiseAbs().maxCoeff(), 1e-11 * size);
+      EXPECT_EQ(all.patterns[0].name, "P");
+      EXPECT_NEAR(conjugate[0], 3 * y[0], 1e-11 * size);
+      EXPECT_NEAR(conjugate[1], u.dot(moved) - 2 * y[0], 1e-11 * size);
+      EXPECT_NEAR(conjugate[2], 5 / stress * u.dot(moved), 1e-11 * size);
+   }
+}
+
 // Cattaneo and Mindlin: under a constant force P the shift is u(Q) = f (δ(P) - δ(P - Q/f)),
 // where δ(P) = 4/π P (ln(2 depth/a) + 1/2 + κ) with a² ~ P. What is linear in P encloses no
 // area: with g(P) = -2/π P ln P and its integral G, the loop of Masing's rule loses 4 Q u - 8 ∫
@@ -812,6 +965,15 @@ TEST(HalfPlane, BadInputIsNamed)
    loaded({{"", {0, 1}}}, "has no pattern");
    loaded({{"P", {1, 1}}}, "along the normal");
    loaded({{"P", {0, 1}}, {"P", {0, 2}}}, "two far forces are of the pattern 'P'");
+   const auto pulled = [&](std::vector<BulkStress> bulk, const std::string &says)
+   {
+      HalfPlane body = good;
+      body.bulk = std::move(bulk);
+      refused(body, line, says);
+   };
+   pulled({{"", 1}}, "a bulk stress has no pattern");
+   pulled({{"B", NAN}}, "the bulk stress of the pattern 'B' is nan");
+   pulled({{"B", 1}, {"B", 2}}, "two bulk stresses are of the pattern 'B'");
    expect_input_error([&] { condense(good, {0, 1, 1}, 2); }, "1 and 1 follow each other");
    const ContactLine round = straight_line(uneven, 2, Formulation::axisymmetric);
    refused(bad, round, "along the axis");

@@ -3,6 +3,8 @@
 #include "line_along.hpp"
 
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/friction/loop.hpp>
+#include <cattaneo/joints/bolts.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>
 #include <cattaneo/reduced/obstacle_shape.hpp>
@@ -1060,6 +1062,88 @@ TEST_F(Interfaces, ShanksAreSprings)
       1e-11);
    expect_input_error([&] { shanks.add_shank("D", 1); }, "prescribes displacements");
    expect_input_error([&] { shanks.add_shank("P", -1); }, "its stiffness is -1");
+}
+
+/// Bolts that are tightened one after the other, under a load, and again: each has the force of
+/// the history when its tightening ends, does nothing before, and is a spring afterwards. A
+/// march is taken up from any of its states, amid a tightening too.
+TEST_F(Interfaces, BoltsAreTightenedInTheOrderOfTheHistory)
+{
+   Truss body({side({0, 0}, {2, 0}, 6, 2)}, {1, 1});
+   body.hold().load("P").load("T").load("S");
+   Reduction loose = reduce(body.condensed(), 0.05);
+   set_friction(loose.problem, 0.3);
+   const BoltedJoint joint(loose, {{"T", 0.3}, {"S", 0.2}});
+   const ReducedProblem &problem = joint.problem();
+   const LoadHistory history = LoadHistory::through(
+      problem,
+      {{}, {{"P", 1}}, {{"T", 1}}, {{"S", 0.5}}, {{"P", 0.7}}, {{"T", 1.5}}, {{"P", 1}}});
+   MarchSettings settings;
+   settings.increments = 3;
+   settings.loss_error = true;
+   std::vector<ContactState> states;
+   ContactState end = ContactState::virgin(problem);
+   const MarchReport report = joint.march(
+      history, end, settings,
+      [&](const ContactState &state, const IncrementRecord &record)
+      {
+         states.push_back(state);
+         EXPECT_EQ(record.multipliers, state.multipliers);
+         EXPECT_LT(difference(record.conjugates, conjugates(problem, state)), 1e-12);
+         EXPECT_NO_THROW(state.require_of(problem));
+      });
+   ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+   EXPECT_EQ(report.time, 6);
+   EXPECT_EQ(report.increments.size(), states.size());
+   EXPECT_EQ(report.loss_error.value, 0);
+   // The forces: as they are tightened, and between.
+   const auto at = [&](double time)
+   {
+      return *std::find_if(states.begin(), states.end(),
+                           [&](const ContactState &state) { return state.time == time; });
+   };
+   EXPECT_LT(joint.forces(at(1)).cwiseAbs().maxCoeff(), 1e-12);
+   EXPECT_NEAR(joint.forces(at(2))[0], 1, 1e-12);
+   EXPECT_NEAR(joint.forces(at(2))[1], 0, 1e-12);
+   EXPECT_NEAR(joint.forces(at(3))[1], 0.5, 1e-12);
+   EXPECT_GT(std::abs(joint.forces(at(3))[0] - 1), 1e-6); // what the other takes
+   EXPECT_NEAR(joint.forces(at(5))[0], 1.5, 1e-12);
+   EXPECT_EQ(at(6).multipliers.tail(2), at(5).multipliers.tail(2)); // nobody turns a nut
+   // Before the second is there, the first is a force on a problem without either.
+   ContactState alone = ContactState::virgin(loose.problem);
+   march(loose.problem, LoadHistory::through(loose.problem, {{}, {{"P", 1}}, {{"T", 1}}}),
+         alone, settings);
+   EXPECT_LT(difference(alone.displacements(), at(2).displacements()), 1e-11);
+   for (ContactState state : states)
+   {
+      if (state.time == 6) { continue; }
+      EXPECT_EQ(joint.march(history, state, settings).status, FrictionStatus::converged);
+      EXPECT_LT(difference(state.displacements(), end.displacements()), 1e-9) << state.time;
+      EXPECT_LT(difference(joint.forces(state), joint.forces(end)), 1e-9);
+   }
+   // The other loads alone change it afterwards: as of the problem with both shanks.
+   ContactState then = at(5);
+   LoadHistory rest;
+   rest.times = Eigen::Vector2d(5, 6);
+   rest.multipliers.resize(3, 2);
+   rest.multipliers << then.multipliers, then.multipliers;
+   rest.multipliers(0, 1) = 1;
+   rest.cycles = 1;
+   march(joint.tightened().problem, rest, then, settings);
+   EXPECT_LT(difference(then.displacements(), end.displacements()), 1e-11);
+   // A stopped march says so, and bad input is named.
+   std::atomic<bool> stop{true};
+   settings.monitor.stop = &stop;
+   ContactState none = ContactState::virgin(problem);
+   EXPECT_EQ(joint.march(history, none, settings).status, FrictionStatus::stopped);
+   const auto refused = [&](const std::vector<NamedLoads> &points, const std::string &says)
+   {
+      expect_input_error([&] { joint.march(LoadHistory::through(problem, points), none); },
+                         says);
+   };
+   refused({{}, {{"T", 1}}}, "the bolt 'S' is never tightened");
+   refused({{}, {{"T", -1}, {"S", 1}}}, "the bolt 'T' is tightened to -1");
+   refused({{}, {{"T", 1}, {"S", 1}}, {{"T", 0}}}, "the bolt 'T' is loosened at the end");
 }
 
 /// A shank that pulls a free body down leaves it two motions of three.

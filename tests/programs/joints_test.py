@@ -810,7 +810,7 @@ WRONG = [
     ({FLAT + "tied": True}, "is tied, it goes without the key friction"),
     ({FLAT + "between": ["pad:1", "base:2"]}, "interface 'flat'"),
     ({"bolts": {"b": {"between": ["pad:3", "base:1"]}}}, "has no 'stiffness'"),
-    ({"bolts": {"b": {**BOLT, "between": ["pad:3"]}}}, "has 1 ends, must have two"),
+    ({"bolts": {"b": {**BOLT, "between": ["pad:3"]}}}, "is bolted to the ground, it must have a direction"),
     ({"version": 3}, "must be 2"),
     ({"bolts": {"b": {**BOLT, "between": ["pad:2", "pad:2"]}}}, "both ends are 'pad:2'"),
     ({FLAT + "gap": "1/(s-s)"}, "key 'interfaces.flat.gap' is "),

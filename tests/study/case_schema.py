@@ -21,7 +21,7 @@ VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.49
           10**30, "", "x", "3", "plane strain", "axisymmetric", "exact", "fixed", [], [1], [1, 2], [0], [-3], [1.5],
           ["a"], ["a", "b"], ["a", 1], [None], [[1]], {}, {"a": 1}]
 # Keys with objects by names, which are tried by themselves.
-NAMED = {"bodies", "interfaces", "bolts"}
+NAMED = {"bodies", "interfaces", "bolts", "points"}
 # How a schema may say things here: a keyword that is not read would be taken for granted.
 KEYWORDS = {"description", "$ref", "type", "enum", "const", "oneOf", "items", "minimum", "maximum", "exclusiveMinimum",
             "exclusiveMaximum", "properties", "required", "additionalProperties", "minItems", "maxItems", "minProperties"}
@@ -119,7 +119,7 @@ def of_objects(asked, schema, definitions):
                 inner[key] = value
                 said = asked.says(case)
                 # What no schema says: what goes with what, names that are not there, numbers of Poisson.
-                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|must have one of the keys|is not a number or a function|is not one of geometry|must grow from above 0|has both|has \d of the keys", said):
+                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|must have one of the keys|is not a number or a function|is not one of geometry|must grow from above 0|has both|has none of the keys|it must have a direction|has \d of the keys", said):
                     continue
                 refuses = re.match(r"error: key '", said) is not None
                 if refuses == fits(schema, case, definitions):

@@ -194,35 +194,80 @@ MatrixXd translations(const HalfPlane &body, Formulation formulation)
    return Eigen::Matrix2d::Identity();
 }
 
-/// Of a body that is held: free to go where the forces take it.
-void release(CondensedBody &body, const HalfPlane &half_plane)
+/// Displacements of its contact nodes under a bulk stress of 1, if no force acts on them.
+VectorXd stretched(const CondensedBody &body, const HalfPlane &half_plane)
 {
-   const MatrixXd axes = translations(half_plane, body.line.formulation);
-   const bool plane = body.line.formulation == Formulation::plane;
-   const MatrixXd motions =
-      plane ? MatrixXd(body.rigid_motions().leftCols(2) * axes) : body.rigid_motions();
-   MatrixXd forces(axes.cols(), half_plane.forces.size());
-   for (Index k = 0; k < forces.cols(); ++k)
-   {
-      forces.col(k) = axes.transpose() * half_plane.forces[k].force;
-   }
-   // Energy ½ (u - R y)ᵀ S (u - R y) - Fᵀ y of the translation y, which nothing holds.
-   const MatrixXd held_back = body.S * motions;
-   DenseCholesky resistance;
-   require(resistance.compute(motions.transpose() * held_back),
-           "half-plane: its stiffness against its translations is not positive definite");
-   body.S -= held_back * resistance.solved(held_back.transpose());
-   body.S.triangularView<Eigen::StrictlyUpper>() = body.S.transpose();
-   const MatrixXd moved = resistance.solved(forces), clamped = -held_back * moved;
-   body.H = forces.transpose() * moved;
    const Index n = body.line.size();
-   for (Index k = 0; k < forces.cols(); ++k)
+   VectorXd u = VectorXd::Zero(body.S.rows());
+   for (Index i = 0; i < n; ++i)
    {
-      body.patterns.push_back({half_plane.forces[k].pattern, Control::force,
+      // Along the surface, which is the tangent of all frames.
+      u[i] = half_plane.bulk_strain(body.line.formulation) *
+             (body.line.nodes[i].position - half_plane.point).dot(tangent(half_plane));
+   }
+   for (int row : body.held) { u[row] = 0; }
+   return u;
+}
+
+/** Adds the loads of a body that is held. With forces from far away it is free to go where they
+    take it, by translations y along the motions R. With u₀ the displacements under the bulk
+    stresses the energy is
+
+       ½ (u - R y - u₀ λ)ᵀ S (u - R y - u₀ λ) - λᵀ Fᵀ y,
+
+    which its least value over y leaves in u and λ alone. */
+void add_loads(CondensedBody &body, const HalfPlane &half_plane)
+{
+   const bool plane = body.line.formulation == Formulation::plane;
+   std::vector<std::string> names;
+   const auto column = [&](const std::string &pattern)
+   {
+      const auto found = std::find(names.begin(), names.end(), pattern);
+      if (found != names.end()) { return static_cast<Index>(found - names.begin()); }
+      names.push_back(pattern);
+      return static_cast<Index>(names.size()) - 1;
+   };
+   const MatrixXd axes = translations(half_plane, body.line.formulation);
+   const auto most = static_cast<Index>(half_plane.forces.size() + half_plane.bulk.size());
+   MatrixXd F = MatrixXd::Zero(axes.cols(), most), u0 = MatrixXd::Zero(body.S.rows(), most);
+   for (const FarForce &load : half_plane.forces)
+   {
+      F.col(column(load.pattern)) = axes.transpose() * load.force;
+   }
+   const VectorXd strained = stretched(body, half_plane);
+   for (const BulkStress &load : half_plane.bulk)
+   {
+      u0.col(column(load.pattern)) = load.stress * strained;
+   }
+   const auto count = static_cast<Index>(names.size());
+   F.conservativeResize(Eigen::NoChange, count);
+   u0.conservativeResize(Eigen::NoChange, count);
+   MatrixXd pushed = MatrixXd::Zero(body.S.rows(), count); // by the far forces, u = 0
+   body.H = MatrixXd::Zero(count, count);
+   if (!half_plane.forces.empty())
+   {
+      const MatrixXd motions =
+         plane ? MatrixXd(body.rigid_motions().leftCols(2) * axes) : body.rigid_motions();
+      const MatrixXd held_back = body.S * motions;
+      DenseCholesky resistance;
+      require(resistance.compute(motions.transpose() * held_back),
+              "half-plane: its stiffness against its translations is not positive definite");
+      body.S -= held_back * resistance.solved(held_back.transpose());
+      body.S.triangularView<Eigen::StrictlyUpper>() = body.S.transpose();
+      const MatrixXd moved = resistance.solved(F);
+      pushed = -held_back * moved;
+      body.H = F.transpose() * moved + pushed.transpose() * u0 + u0.transpose() * pushed;
+      body.rigid_modes = static_cast<int>(motions.cols());
+      body.free_motions = thin_qr(motions).Q;
+   }
+   const MatrixXd held = body.S * u0, clamped = pushed - held;
+   body.H -= u0.transpose() * held;
+   const Index n = body.line.size();
+   for (Index k = 0; k < count; ++k)
+   {
+      body.patterns.push_back({names[static_cast<std::size_t>(k)], Control::force,
                                clamped.col(k).head(n), clamped.col(k).tail(n)});
    }
-   body.rigid_modes = static_cast<int>(motions.cols());
-   body.free_motions = thin_qr(motions).Q;
 }
 
 } // namespace
@@ -242,6 +287,9 @@ void HalfPlane::validate(Formulation formulation) const
            plane ? "" : " and along the axis",
            plane && is_symmetric() ? ", and horizontal or vertical beside a plane of symmetry"
                                    : "");
+   require(thickness > 0 && std::isfinite(thickness) && (plane || thickness == 1),
+           "half-plane: its thickness is ", thickness,
+           plane ? ", must be positive and finite" : ", must be 1 about an axis");
    require(plane || !is_symmetric(),
            "half-plane: a plane of symmetry is said of a half-space about "
            "an axis, is for the plane alone");
@@ -259,6 +307,34 @@ void HalfPlane::validate(Formulation formulation) const
               "half-plane: two far forces are of the pattern '", load.pattern,
               "', must be one");
    }
+   for (const BulkStress &load : bulk)
+   {
+      require(!load.pattern.empty(), "half-plane: a bulk stress has no pattern, must name one");
+      require(std::isfinite(load.stress), "half-plane: the bulk stress of the pattern '",
+              load.pattern, "' is ", load.stress, ", must be finite");
+      require(std::count_if(bulk.begin(), bulk.end(),
+                            [&](const BulkStress &other)
+                            { return other.pattern == load.pattern; }) == 1,
+              "half-plane: two bulk stresses are of the pattern '", load.pattern,
+              "', must be one");
+   }
+}
+
+double HalfPlane::bulk_strain(Formulation formulation) const
+{
+   return formulation == Formulation::plane ? 1 / material.plane_modulus()
+                                            : (1 - material.poisson) / material.young;
+}
+
+double HalfPlane::bulk_stress(const NamedLoads &loads) const
+{
+   double sum = 0;
+   for (const BulkStress &load : bulk)
+   {
+      const auto found = loads.find(load.pattern);
+      if (found != loads.end()) { sum += found->second * load.stress; }
+   }
+   return sum;
 }
 
 CondensedBody condense(const HalfPlane &body, const ContactLine &other)
@@ -332,7 +408,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    }
    result.S = MatrixXd::Zero(rows, rows);
    const auto own = static_cast<Index>(free.size());
-   result.S(free, free) = S.topLeftCorner(own, own);
+   result.S(free, free) = body.thickness * S.topLeftCorner(own, own);
    if (torsion)
    {
       const VectorXd inverse = line.each(&LineNode::position).col(0).cwiseInverse();
@@ -356,7 +432,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
                             std::sqrt(double(size)) /
                             least_eigenvalue(factor, flexible.diagonal());
    result.solver = std::move(solver);
-   if (!body.forces.empty() && !torsion) { release(result, body); }
+   if ((!body.forces.empty() || !body.bulk.empty()) && !torsion) { add_loads(result, body); }
    return result;
 }
 

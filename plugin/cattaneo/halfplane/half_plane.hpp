@@ -18,6 +18,18 @@ struct FarForce
    Eigen::Vector2d force; ///< per unit multiplier, in x and y
 };
 
+/** A uniform stress along the surface of a half-plane, as a specimen has that is pulled:
+   tension positive, in the plane along x of a level surface, about an axis the same in all
+   directions along it. It strains the surface, which stays where it is at HalfPlane::point; the
+   half-plane feels the contact as without it. Its load pattern is one of forces, whose
+   conjugate is the volume that the contact adds to the half-plane's extension along the stress:
+   that of the uniform strain itself, which has no bound, is left out. */
+struct BulkStress
+{
+   std::string pattern; ///< load pattern it belongs to, which may have a far force as well
+   double stress = 0;   ///< per unit multiplier, force per area
+};
+
 /// Integrals about an axis of the contact line that was condensed last (an inner matter).
 class KeptRings;
 /// None of them yet.
@@ -35,7 +47,8 @@ struct HalfPlane
        twice the length of the contact line, then S is positive definite; 1e4 times is fine. Not
        asked for in axisymmetry, where displacements are relative to infinity. */
    double depth = 0;
-   Eigen::Vector2d point{0, 0};   ///< of the surface; on the axis of symmetry, if there is one
+   /// Of the surface; on the axis of symmetry, if there is one. Bulk stresses do not move it.
+   Eigen::Vector2d point{0, 0};
    Eigen::Vector2d normal{0, -1}; ///< into the half-plane, a unit vector
    /// Of the plane: the line through `point` along the normal is one of symmetry, and contact
    /// lies on one side of it. The surface must be horizontal or vertical. Not said: there is no
@@ -50,9 +63,19 @@ struct HalfPlane
        its displacements there. Beside a plane of symmetry they act along the normal. None of
        them twists. */
    std::vector<FarForce> forces = {};
+   /// Uniform stresses along the surface, see there; none of them twists.
+   std::vector<BulkStress> bulk = {};
+   /// Of the plane, > 0: forces and stiffness are those of this thickness.
+   double thickness = 1;
    /// What condense() has integrated about an axis: the torsion of the same contact line has
    /// the same integrals. Copies share it.
    std::shared_ptr<KeptRings> rings = keep_rings();
+
+   /// How much of its length the surface grows by under a bulk stress of 1: 1/E', about an axis
+   /// (1-ν)/E.
+   double bulk_strain(Formulation formulation) const;
+   /// The sum of its bulk stresses under these multipliers; 0 of loads that are not named.
+   double bulk_stress(const NamedLoads &loads) const;
 
    /// InputError for a material that is none, a normal of another length than 1 (not along the
    /// axis, if there is one), and what is said above.

@@ -42,10 +42,11 @@ struct HalfPlaneField::Tractions
    Surface surface;
    SurfaceTrace trace;
    VectorXd q, p;
-   double length;
+   double length, bulk;
 
-   Tractions(const HalfPlane &half_plane, const ContactLine &line, const VectorXd &forces)
-      : body(half_plane), surface(body, line), trace(trace_of(line, surface))
+   Tractions(const HalfPlane &half_plane, const ContactLine &line, const VectorXd &forces,
+             double along)
+      : body(half_plane), surface(body, line), trace(trace_of(line, surface)), bulk(along)
    {
       const Index n = line.size();
       const Eigen::SparseMatrix<double> mass = trace.mass([](double) { return 1.0; });
@@ -57,8 +58,8 @@ struct HalfPlaneField::Tractions
             body.is_symmetric() && surface.along(line.nodes[i].position) == 0;
          if (!on_plane) { sliding.push_back(i); }
       }
-      q = tractions(mass, forces.head(n), sliding);
-      p = tractions(mass, forces.tail(n), all);
+      q = tractions(mass, forces.head(n) / body.thickness, sliding);
+      p = tractions(mass, forces.tail(n) / body.thickness, all);
       const SurfaceElement &first = trace.elements().front(), &last = trace.elements().back();
       length = last.x[last.order()] - first.x[0];
    }
@@ -116,7 +117,7 @@ struct HalfPlaneField::Tractions
 };
 
 HalfPlaneField::HalfPlaneField(const HalfPlane &body, const ContactLine &line,
-                               const VectorXd &forces)
+                               const VectorXd &forces, double bulk)
 {
    require(line.formulation == Formulation::plane,
            "field of a half-plane: its line is one of axisymmetry or torsion, must be of the "
@@ -126,7 +127,9 @@ HalfPlaneField::HalfPlaneField(const HalfPlane &body, const ContactLine &line,
    require(forces.size() == 2 * line.size() && forces.allFinite(),
            "field of a half-plane: there are ", forces.size(),
            " forces, must be finite and two for each of the ", line.size(), " nodes");
-   tractions_ = std::make_unique<Tractions>(body, line, forces);
+   require(std::isfinite(bulk), "field of a half-plane: the bulk stress is ", bulk,
+           ", must be finite");
+   tractions_ = std::make_unique<Tractions>(body, line, forces, bulk);
 }
 
 HalfPlaneField::~HalfPlaneField() = default;
@@ -145,6 +148,13 @@ HalfPlaneField::Point HalfPlaneField::at(const Vector2d &position) const
       const Sums other = tractions_->sums(-x, y);
       s = {s.ux - other.ux, s.uy + other.uy, s.xx + other.xx, s.yy + other.yy, s.xy - other.xy};
    }
+   // The bulk stress strains it along the surface, and draws it in across by Poisson's ratio,
+   // in plane strain by ν/(1-ν).
+   const double nu = body.material.poisson,
+                along = tractions_->bulk * body.bulk_strain(Formulation::plane);
+   s.xx += tractions_->bulk;
+   s.ux += along * x;
+   s.uy -= along * y * (body.material.state == PlaneState::strain ? nu / (1 - nu) : nu);
    const Eigen::Matrix2d stress = s.xx * t * t.transpose() + s.yy * n * n.transpose() +
                                   s.xy * (t * n.transpose() + n * t.transpose());
    return {s.ux * t + s.uy * n, stress(0, 0), stress(1, 1), stress(0, 1)};

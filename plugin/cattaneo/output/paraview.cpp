@@ -29,31 +29,18 @@ const char *unknown(Formulation formulation)
    return formulation == Formulation::torsion ? "twist" : "displacement";
 }
 
-/// What the contact does to the last body, on whose nodes others stand one to one.
+/// What the contact does to the last body, in the frames of its line.
 Eigen::VectorXd forces_below(const Reduction &reduction, const ContactState &state)
 {
-   const auto last = static_cast<int>(reduction.bodies.size()) - 1;
    const ContactLine &below = reduction.bodies.back().line;
-   const Eigen::Index n = below.size();
-   const Eigen::MatrixX2d places = below.each(&LineNode::position);
-   const Eigen::VectorXd tied = reduction.tied_forces(state.v, state.w, state.multipliers);
-   Eigen::VectorXd forces = Eigen::VectorXd::Zero(2 * n);
-   for (const InterfaceReport &face : reduction.interfaces)
+   const Eigen::MatrixX2d all =
+      reduction.contact_forces(static_cast<int>(reduction.bodies.size()) - 1, state.q, state.p,
+                               reduction.tied_forces(state.v, state.w, state.multipliers));
+   Eigen::VectorXd forces(2 * below.size());
+   for (Eigen::Index i = 0; i < below.size(); ++i)
    {
-      for (Eigen::Index i = 0; i < face.nodes && face.bodies[1] == last; ++i)
-      {
-         const Eigen::Index k = face.first + i;
-         const double q = face.tied            ? tied[k]
-                          : state.q.size() > 0 ? state.q[k]
-                                               : 0.0,
-                      p = face.tied ? tied[tied.size() / 2 + k] : state.p[k];
-         const Eigen::Vector2d t = face.tangent.row(i), normal(-t[1], t[0]),
-                               force = -q * t - p * normal;
-         Eigen::Index at = 0;
-         (places.rowwise() - face.acts_at[1].row(i)).rowwise().squaredNorm().minCoeff(&at);
-         forces[at] += force.dot(below.nodes[at].tangent);
-         forces[n + at] += force.dot(below.nodes[at].normal());
-      }
+      forces[i] = all.row(i).dot(below.nodes[i].tangent);
+      forces[below.size() + i] = all.row(i).dot(below.nodes[i].normal());
    }
    return forces;
 }
@@ -258,8 +245,12 @@ void ContactLineFields::write(const ContactState &state)
 ReductionFields::ReductionFields(Reduction &reduction,
                                  const std::vector<const ElasticBody *> &bodies,
                                  const std::string &directory, const HalfPlane *half_plane)
-   : reduction_(reduction), contact_(reduction.problem, directory, "contact"), bodies_(bodies)
+   : reduction_(reduction), bodies_(bodies)
 {
+   if (reduction.problem.nodes() > 0)
+   {
+      contact_.emplace(reduction.problem, directory, "contact");
+   }
    const std::size_t given = bodies.size() + (half_plane ? 1 : 0);
    require(given == reduction.bodies.size(), "ParaView output: ", given,
            " bodies for a reduction of ", reduction.bodies.size());
@@ -282,8 +273,12 @@ ReductionFields::ReductionFields(Reduction &reduction,
 void ReductionFields::write(const ContactState &state)
 {
    const bool first = Ranks::first_of_all();
-   if (first) { contact_.write(state); }
-   if (first && below_) { below_->write(forces_below(reduction_, state), state.time); }
+   if (first && contact_) { contact_->write(state); }
+   if (first && below_)
+   {
+      below_->write(forces_below(reduction_, state), state.time,
+                    named(reduction_.problem, state.multipliers));
+   }
    for (std::size_t k = 0; k < bodies_.size(); ++k)
    {
       // A body that every rank has for itself is written by one.

@@ -6,6 +6,7 @@
 #include <cattaneo/reduced/reduction.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,7 +99,7 @@ public:
 
 private:
    Reduction &reduction_;
-   ContactLineFields contact_;
+   std::optional<ContactLineFields> contact_; ///< none where all is tied
    std::vector<const ElasticBody *> bodies_;
    std::vector<std::unique_ptr<BodyFields>> fields_;
    std::unique_ptr<HalfPlaneFields> below_;

@@ -99,9 +99,9 @@ const mfem::GridFunction &HalfPlaneFields::field(const std::string &name) const
    throw InputError("ParaView output: there is no field '" + name + "' of a half-plane");
 }
 
-void HalfPlaneFields::write(const Eigen::VectorXd &forces, double time)
+void HalfPlaneFields::write(const Eigen::VectorXd &forces, double time, const NamedLoads &loads)
 {
-   const HalfPlaneField inside(body_, line_, forces);
+   const HalfPlaneField inside(body_, line_, forces, body_.bulk_stress(loads));
    const Material &material = body_.material;
    mfem::Array<int> vertices, dofs, vertex_dofs;
    std::vector<HalfPlaneField::Point> points;

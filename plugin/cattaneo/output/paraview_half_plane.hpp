@@ -28,8 +28,9 @@ public:
                    const std::string &name);
 
    /// Writes one more time of the series. @a forces: on the nodes of the line, as
-   /// HalfPlaneField asks for them. InputError if the folder cannot be written.
-   void write(const Eigen::VectorXd &forces, double time);
+   /// HalfPlaneField asks for them. @a loads: multipliers, of which bulk stresses follow.
+   /// InputError if the folder cannot be written.
+   void write(const Eigen::VectorXd &forces, double time, const NamedLoads &loads = {});
 
    /// A field as last written; InputError if there is none of that name.
    const mfem::GridFunction &field(const std::string &name) const;

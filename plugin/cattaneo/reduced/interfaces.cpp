@@ -127,8 +127,7 @@ Reduction reduce_by_rows(std::vector<CondensedBody> bodies,
    rows->rows = rows_of(interfaces, result.bodies, facings);
    rows->groups = groups_of(result.bodies.size(), facings);
    sort_out(facings, *rows);
-   const auto n = static_cast<Index>(rows->free.size());
-   require(n > 0, "reduce: all contact nodes are of tied interfaces, one at least must not be");
+   const auto n = static_cast<Index>(rows->free.size()); // none where all is tied
    const auto count = static_cast<int>(result.bodies.size());
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);

@@ -6,6 +6,28 @@
 namespace cattaneo
 {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// What errors about a pattern of this name begin with; InputError if it is none or taken.
+std::string new_pattern(const ReducedProblem &problem, const std::string &name)
+{
+   require(!name.empty(), "obstacle motion: it has no name, must have one");
+   const std::string where = "obstacle motion '" + name + "'";
+   for (const LoadPattern &pattern : problem.patterns)
+   {
+      require(pattern.name != name, where, ": a load pattern of that name is there already");
+   }
+   return where;
+}
+
+} // namespace
+
 void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &ux,
                                     const ScalarField &uy, const ScalarField &u_theta)
 {
@@ -19,17 +41,11 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
    add_obstacle_motion(name, motions);
 }
 
-void Reduction::add_obstacle_motion(const std::string &name,
-                                    const std::vector<ObstacleMotion> &motions)
+VectorXd Reduction::displaced(const std::string &where,
+                              const std::vector<ObstacleMotion> &motions) const
 {
-   require(!name.empty(), "obstacle motion: it has no name, must have one");
-   const std::string where = "obstacle motion '" + name + "'";
-   for (const LoadPattern &pattern : problem.patterns)
-   {
-      require(pattern.name != name, where, ": a load pattern of that name is there already");
-   }
-   const Eigen::Index n = problem.nodes(), m = problem.slips();
-   Eigen::VectorXd d = Eigen::VectorXd::Zero(m + n);
+   const Index n = problem.nodes(), m = problem.slips();
+   VectorXd d = VectorXd::Zero(m + n);
    for (const ObstacleMotion &motion : motions)
    {
       require(motion.interface < interfaces.size(), where, ": interface ", motion.interface,
@@ -37,16 +53,16 @@ void Reduction::add_obstacle_motion(const std::string &name,
       const InterfaceReport &of = interfaces[motion.interface];
       require(of.bodies[1] < 0 && !of.tied, where, ": interface '", of.name, "' is ",
               of.tied ? "tied" : "between two bodies", ", must be of one on a rigid obstacle");
-      for (Eigen::Index i = 0; i < of.nodes; ++i)
+      for (Index i = 0; i < of.nodes; ++i)
       {
-         const Eigen::Vector2d x = of.position.row(i), t = of.tangent.row(i),
-                               u(motion.ux(x[0], x[1]), motion.uy(x[0], x[1]));
+         const Vector2d x = of.position.row(i), t = of.tangent.row(i),
+                        u(motion.ux(x[0], x[1]), motion.uy(x[0], x[1]));
          const double theta = motion.u_theta(x[0], x[1]);
          require(u.allFinite() && std::isfinite(theta), where, ": the displacement at ", x,
                  " is (", u[0], ", ", u[1], ", ", theta, "), must be finite");
          require(!torsion.empty() || theta == 0, where, ": at ", x, " it is ", theta,
                  " along the circumference, must be 0 in a reduction without torsion");
-         const Eigen::Index node = of.first + i;
+         const Index node = of.first + i;
          d[node] = t.dot(u);
          d[m + node] = t[0] * u[1] - t[1] * u[0];
          // What is held lies along an axis, whichever way the frame leans.
@@ -56,14 +72,35 @@ void Reduction::add_obstacle_motion(const std::string &name,
          if (!torsion.empty()) { d[n + node] = theta; }
       }
    }
-   for (Eigen::Index row : problem.held)
+   for (Index row : problem.held)
    {
-      const Eigen::Index i = row % n;
+      const Index i = row % n;
       require(std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(), where, ": it moves by ",
               d[row], " along the component that is fixed at the node ",
-              Eigen::Vector2d(problem.position.row(i)), ", must not");
+              Vector2d(problem.position.row(i)), ", must not");
       d[row] = 0;
    }
+   return d;
+}
+
+VectorXd Reduction::moved(const VectorXd &u, const VectorXd &multipliers) const
+{
+   VectorXd all = u;
+   if (obstacle_.size() > 0) { all += obstacle_ * multipliers; }
+   // Those that are free follow what the others do.
+   if (free_motions_.size() > 0)
+   {
+      all += free_motions_ * (by_load_ * multipliers.head(by_load_.cols()) + by_contact_ * all);
+   }
+   return all;
+}
+
+void Reduction::add_obstacle_motion(const std::string &name,
+                                    const std::vector<ObstacleMotion> &motions)
+{
+   const std::string where = new_pattern(problem, name);
+   const Index n = problem.nodes(), m = problem.slips();
+   const VectorXd d = displaced(where, motions);
    // The body moves by u + λ d: f = K (u + λ d) + …, and the reaction is dᵀ f.
    const Eigen::VectorXd f = problem.K * d;
    const auto k = static_cast<Eigen::Index>(problem.patterns.size());
@@ -86,6 +123,104 @@ void Reduction::add_obstacle_motion(const std::string &name,
    all.leftCols(obstacle_.cols()) = obstacle_;
    all.col(k) = d;
    obstacle_ = all;
+}
+
+/* Obstacles that move by D y under the forces F take U = u + D y of the bodies, and the forces
+   f = K U + Σ λ_k f_k of the contact on these. They are in equilibrium where Dᵀ f = F, that is
+
+      y = M⁻¹ (F - Dᵀ K u - Σ λ_k Dᵀ f_k),    M = Dᵀ K D,
+
+   which is put in for y in f and in the conjugates g_k = H_k λ ∓ f_kᵀ U. */
+void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
+{
+   require(!motions.empty() && free_motions_.size() == 0 && obstacle_.size() == 0,
+           "free obstacles: ",
+           motions.empty()             ? "there is no motion"
+           : free_motions_.size() == 0 ? "others have been moved already"
+                                       : "they have been freed already",
+           ", must be called once, with all motions, before add_obstacle_motion()");
+   const Index n = problem.nodes(), m = problem.slips(),
+               count = static_cast<Index>(motions.size()),
+               before = static_cast<Index>(problem.patterns.size());
+   MatrixXd D(m + n, count);
+   for (Index a = 0; a < count; ++a)
+   {
+      const std::string &load = motions[a].load;
+      D.col(a) = displaced(load.empty() ? "free obstacle" : new_pattern(problem, load),
+                           motions[a].motions);
+   }
+   const MatrixXd KD = problem.K * D;
+   const Eigen::LLT<MatrixXd> M(D.transpose() * KD);
+   const VectorXd size = (D.transpose() * KD).diagonal();
+   // What is left of a motion when the others are free to follow.
+   const bool resisted =
+      M.info() == Eigen::Success &&
+      (MatrixXd(M.matrixL()).diagonal().cwiseAbs2().array() > 1e-10 * size.array()).all() &&
+      (size.array() >
+       1e-12 * D.colwise().squaredNorm().transpose().array() * problem.K.diagonal().maxCoeff())
+         .all();
+   require(resisted, "free obstacles: the bodies do not resist all of their motions, something "
+                     "must hold the bodies or the obstacles");
+   MatrixXd f(m + n, before);
+   for (Index k = 0; k < before; ++k)
+   {
+      f.col(k) << problem.patterns[k].q, problem.patterns[k].p;
+   }
+   const MatrixXd work = D.transpose() * f; // of each load on each motion
+   free_motions_ = D;
+   by_contact_ = -M.solve(KD.transpose());
+   by_load_ = MatrixXd::Zero(count, before);
+   if (before > 0) { by_load_ = -M.solve(work); }
+   // 1. The loads that are there already.
+   for (Index k = 0; k < before; ++k)
+   {
+      LoadPattern &load = problem.patterns[k];
+      const VectorXd given = KD * by_load_.col(k);
+      load.q += given.head(m);
+      load.p += given.tail(n);
+      const double sign = load.control == Control::force ? -1 : 1;
+      if (problem.knows_loads())
+      {
+         problem.H.row(k) += sign * work.col(k).transpose() * by_load_;
+      }
+   }
+   // 2. Those of the obstacles.
+   const bool known = problem.knows_loads();
+   for (Index a = 0; a < count; ++a)
+   {
+      if (motions[a].load.empty()) { continue; }
+      const auto at = static_cast<Index>(problem.patterns.size());
+      const VectorXd y = motions[a].force * M.solve(VectorXd::Unit(count, a));
+      const VectorXd given = KD * y;
+      problem.patterns.push_back(
+         {motions[a].load, Control::force, given.head(m), given.tail(n)});
+      by_load_.conservativeResize(Eigen::NoChange, at + 1);
+      by_load_.col(at) = y;
+      if (!known) { continue; }
+      problem.H.conservativeResizeLike(MatrixXd::Zero(at + 1, at + 1));
+      for (Index k = 0; k < before; ++k)
+      {
+         const double sign = problem.patterns[k].control == Control::force ? -1 : 1;
+         problem.H(k, at) = sign * work.col(k).dot(y);
+         problem.H(at, k) = motions[a].force * by_load_(a, k);
+      }
+      Index of = before; // of the loads of obstacles
+      for (Index b = 0; b <= a; ++b)
+      {
+         if (motions[b].load.empty()) { continue; }
+         problem.H(of, at) = motions[b].force * y[b];
+         problem.H(at, of) = problem.H(of, at);
+         ++of;
+      }
+   }
+   // 3. Bodies and obstacles that move together meet no resistance.
+   problem.K -= KD * M.solve(KD.transpose());
+   problem.K.triangularView<Eigen::StrictlyUpper>() = problem.K.transpose();
+   MatrixXd free(m + n, problem.rigid_motions.cols() + count);
+   free << problem.rigid_motions, D;
+   const Eigen::HouseholderQR<MatrixXd> factor(free);
+   problem.rigid_motions = factor.householderQ() * MatrixXd::Identity(m + n, free.cols());
+   join_coupling(problem);
 }
 
 } // namespace cattaneo

@@ -275,11 +275,11 @@ Eigen::VectorXd Reduction::displacement(int b, const Eigen::VectorXd &v,
    require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
            "displacement: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size());
-   Eigen::VectorXd moved(tangential + n), u(2 * n);
-   moved << v, w;
-   if (obstacle_.size() > 0) { moved += obstacle_ * multipliers; }
-   u << moved.head(n), moved.tail(n);
-   const Eigen::VectorXd loads = acting(moved, multipliers);
+   Eigen::VectorXd relative(tangential + n), u(2 * n);
+   relative << v, w;
+   const Eigen::VectorXd all = moved(relative, multipliers);
+   u << all.head(n), all.tail(n);
+   const Eigen::VectorXd loads = acting(all, multipliers);
    if (union_) { u = union_->own(bodies, b, u, loads); }
    return recover(bodies[b], u, pattern_[b], loads);
 }
@@ -289,11 +289,11 @@ Eigen::VectorXd Reduction::tied_forces(const Eigen::VectorXd &v, const Eigen::Ve
 {
    if (!union_) { return {}; }
    const Eigen::Index n = problem.nodes();
-   Eigen::VectorXd moved(v.size() + n), u(2 * n);
-   moved << v, w;
-   if (obstacle_.size() > 0) { moved += obstacle_ * multipliers; }
-   u << moved.head(n), moved.tail(n);
-   return union_->tied(u, acting(moved, multipliers));
+   Eigen::VectorXd relative(v.size() + n), u(2 * n);
+   relative << v, w;
+   const Eigen::VectorXd all = moved(relative, multipliers);
+   u << all.head(n), all.tail(n);
+   return union_->tied(u, acting(all, multipliers));
 }
 
 Eigen::VectorXd Reduction::tied_twisting(const Eigen::VectorXd &v,

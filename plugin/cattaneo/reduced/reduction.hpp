@@ -105,6 +105,25 @@ public:
    void add_obstacle_motion(const std::string &name, const ScalarField &ux,
                             const ScalarField &uy, const ScalarField &u_theta = 0.0);
 
+   /** Rigid obstacles that are free to move, in one motion or several, each that of some
+       interfaces, and take loads there: obstacles on which forces or moments act, guided or not.
+       Displacements of the reduced problem are relative to them, as of add_obstacle_motion().
+       The load of a motion is a force on the obstacles that does work `force` per unit
+       multiplier and unit of the motion (a force along it, a moment about a turn's centre), and
+       its conjugate is how far they move, times `force`. A motion without a name has no load.
+       Shanks must have been added before, prescribed motions after.
+
+       InputError as of add_obstacle_motion(), if no motion is given, or if the bodies do not
+       resist one of them. */
+   struct FreeMotion
+   {
+      std::string load;                    ///< name of its pattern; empty: none
+      double force = 1;                    ///< per unit multiplier
+      std::vector<ObstacleMotion> motions; ///< of the interfaces' obstacles
+   };
+   /// See FreeMotion. Called once, with all motions of all obstacles that are free.
+   void free_obstacles(const std::vector<FreeMotion> &motions);
+
    /** A shank, or another spring that pulls two parts of the bodies together: `pattern` is a
        load of forces on both that are each other's opposite, and becomes the pretension. With
        N the multiplier of the forces that act, T that of the pretension and g the pattern's
@@ -127,6 +146,15 @@ public:
    /// The circumferential forces q_θ of the same nodes, for displacements v of twist().
    Eigen::VectorXd tied_twisting(const Eigen::VectorXd &v,
                                  const Eigen::VectorXd &multipliers) const;
+
+   /** What contact nodes and ties put on body `b`: forces in x and y (r and z) on the nodes of
+       its line, n × 2.
+       @param q     tangential forces of the contact nodes; none without friction
+       @param p     normal forces of the contact nodes
+       @param tied  of tied_forces(); none where nothing is tied
+       InputError if there is no such body, or for other sizes. */
+   Eigen::MatrixX2d contact_forces(int b, const Eigen::VectorXd &q, const Eigen::VectorXd &p,
+                                   const Eigen::VectorXd &tied = {}) const;
 
    /// Displacement of all true dofs of body `b`, for relative displacements v (of all
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
@@ -172,9 +200,19 @@ private:
    std::shared_ptr<const UnionRows> rows_; ///< of a union over interfaces
    std::vector<int> partner_;              ///< of two bodies with nodes that match
    PatternIndex pattern_, torsion_pattern_;
+   /// Displacements {v; w} of rigid obstacles in some motions, a column each, zero beyond their
+   /// interfaces. InputError, which begins with `where`.
+   Eigen::VectorXd displaced(const std::string &where,
+                             const std::vector<ObstacleMotion> &motions) const;
+   /// What is added to the relative displacements {v; w} of the contact nodes where obstacles
+   /// move.
+   Eigen::VectorXd moved(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers) const;
    /// Displacements {v; w} of a rigid obstacle, one column a pattern of the problem; empty if
    /// it rests.
    Eigen::MatrixXd obstacle_;
+   /// Of obstacles that are free: {v; w} of each motion, and how far it goes, by_load ·
+   /// multipliers + by_contact · {v; w}; empty if there are none.
+   Eigen::MatrixXd free_motions_, by_load_, by_contact_;
    /// The force of a shank is at_rest·multipliers + at_once·{v; w}.
    struct Shank
    {

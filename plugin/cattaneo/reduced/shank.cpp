@@ -26,7 +26,7 @@ void Reduction::add_shank(const std::string &pattern, double stiffness)
    require(problem.knows_loads(), where,
            ": the response H of the reduction's loads is not "
            "known, must be");
-   require(obstacle_.size() == 0, where,
+   require(obstacle_.size() == 0 && free_motions_.size() == 0, where,
            ": the obstacle already moves, shanks must be added "
            "before");
    const Index m = problem.slips(), n = problem.nodes();

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "contact/own_bodies.hpp"
+
+#include <cattaneo/output/streamed_file.hpp>
+#include <optional>
+
+namespace miniapp
+{
+
+/// Displacements and stresses at the points that a case names: at the end in a table, and with
+/// --csv of each recorded state in PREFIX_point_history.csv.
+class NamedPoints
+{
+public:
+   /// All must outlive it. InputError for a point that is in no body.
+   NamedPoints(Study &study, const JointCase &joint, OwnBodies &own);
+   /// Begins the file, or goes on with it from a state.
+   void begin(const cattaneo::ContactState &state);
+   void note(const cattaneo::ContactState &state);
+   void report(const cattaneo::ContactState &state);
+
+private:
+   /// A point in one of the bodies that have it.
+   struct Place
+   {
+      std::string name;
+      int body = 0;
+      Eigen::Vector2d at{0, 0};
+      int element = 0; ///< of a mesh
+      mfem::IntegrationPoint within;
+   };
+   struct Value
+   {
+      Eigen::Vector2d displacement{0, 0};
+      cattaneo::Stress stress;
+   };
+   void find(const JointCase::Point &point);
+   std::vector<Value> values(const cattaneo::ContactState &state);
+
+   Study &study_;
+   const JointCase &joint_;
+   OwnBodies &own_;
+   std::vector<Place> places_;
+   std::optional<cattaneo::StreamedFile> file_;
+   double last_ = none; ///< time that was noted last: the end of a march is observed twice
+};
+
+} // namespace miniapp

@@ -1,0 +1,247 @@
+#include "contact/reactions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// Forces on a body, and their moment about the origin. About an axis the force along it alone
+/// adds up.
+struct Sum
+{
+   Vector2d force{0, 0}, middle{0, 0};
+   double moment = 0, size = 0, lever = 0;
+   int places = 0;
+
+   void add(const Vector2d &at, const Vector2d &its)
+   {
+      force += its;
+      moment += at[0] * its[1] - at[1] * its[0];
+      size += its.norm();
+      lever += at.norm() * its.norm();
+      middle += at;
+      ++places;
+   }
+   void add(const Sum &other)
+   {
+      force += other.force;
+      moment += other.moment;
+      size += other.size;
+      lever += other.lever;
+   }
+   Vector2d about() const { return places ? Vector2d(middle / places) : middle; }
+   /// The largest of what is added and of what it comes to.
+   double largest() const { return force.cwiseAbs().maxCoeff(); }
+};
+
+/// All that acts on one body.
+class Forces
+{
+public:
+   Forces(OwnBodies &own, const JointReport &report, const JointCase &joint, int body,
+          const ContactState &state)
+      : own_(own), reduction_(own.scene.reduction), held_(own.held[body]), body_(body),
+        plane_(joint.formulation == Formulation::plane), thickness_(joint.thickness_of(body)),
+        state_(state), loads_(state.multipliers)
+   {
+      // Of a bolt its force, and not what it would be if nothing gave way.
+      const std::vector<double> shanks = report.shanks(state);
+      for (std::size_t k = 0; k < shanks.size(); ++k)
+      {
+         loads_[reduction_.problem.pattern(joint.bolts[k].name)] =
+            shanks[k] / joint.bolts[k].force;
+      }
+      add_interfaces();
+      if (held_.K.size() == 0) { return; }
+      add_loads();
+      add_holdings();
+   }
+
+   struct Named
+   {
+      std::string kind, name;
+      Sum sum;
+   };
+   const std::vector<Named> &held() const { return named_; }
+   const Sum &contact() const { return contact_; }
+   bool known() const { return held_.K.size() > 0; }
+   /// All of them over the largest; NaN: nothing acts.
+   double imbalance() const
+   {
+      Sum all = loaded_;
+      all.add(contact_);
+      double largest = std::max(contact_largest_, loaded_largest_), reach = 0;
+      for (const Named &one : named_)
+      {
+         all.add(one.sum);
+         largest = std::max(largest, one.sum.largest());
+      }
+      for (const Vector2d &place : held_.place) { reach = std::max(reach, place.norm()); }
+      if (largest == 0) { return none; }
+      if (!plane_) { return std::abs(all.force[1]) / largest; }
+      return std::max(all.largest(), std::abs(all.moment) / reach) / largest;
+   }
+
+private:
+   /// Resultants where they act on this body.
+   void add_interfaces()
+   {
+      tied_ = reduction_.tied_forces(state_.v, state_.w, state_.multipliers);
+      for (const InterfaceReport &face : reduction_.interfaces)
+      {
+         for (const int side : {0, 1})
+         {
+            if (face.bodies[side] != body_) { continue; }
+            Sum its;
+            for (Index i = 0; i < face.nodes; ++i)
+            {
+               const Index k = face.first + i;
+               const double q = face.tied             ? tied_[k]
+                                : state_.q.size() > 0 ? state_.q[k]
+                                                      : 0.0,
+                            p = face.tied ? tied_[tied_.size() / 2 + k] : state_.p[k];
+               const Vector2d t = face.tangent.row(i), n(-t[1], t[0]);
+               its.add(face.acts_at[side].row(i), (side ? -1 : 1) * (q * t + p * n));
+            }
+            contact_largest_ = std::max(contact_largest_, its.largest());
+            contact_.add(its);
+            if (face.bodies[1] < 0)
+            {
+               named_.push_back({face.tied ? "tie" : "obstacle", face.name, its});
+               obstacles_.add(its);
+            }
+         }
+      }
+      // They are among what holds the body.
+      contact_.force -= obstacles_.force;
+      contact_.moment -= obstacles_.moment;
+   }
+
+   void add_loads()
+   {
+      field_ = VectorXd::Zero(held_.K.size());
+      for (const BodyLoad &load : held_.loads)
+      {
+         if (load.control != Control::force) { continue; }
+         const double factor = thickness_ * loads_[reduction_.problem.pattern(load.name)];
+         Sum its;
+         for (Index dof = 0; dof < load.values.size(); ++dof)
+         {
+            if (load.values[dof] == 0) { continue; }
+            field_[dof] += factor * load.values[dof];
+            its.add(held_.place[dof], along(dof, factor * load.values[dof]));
+         }
+         loaded_largest_ = std::max(loaded_largest_, its.largest());
+         loaded_.add(its);
+      }
+   }
+
+   void add_holdings()
+   {
+      const VectorXd u = reduction_.displacement(body_, state_.v, state_.w, state_.multipliers);
+      VectorXd rest = thickness_ * (held_.K.view() * u) - field_;
+      const ContactLine &line = reduction_.bodies[body_].line;
+      const Index n = reduction_.problem.nodes();
+      const Eigen::MatrixX2d contact = reduction_.contact_forces(
+         body_, state_.q.size() ? VectorXd(state_.q.head(n)) : VectorXd(), state_.p, tied_);
+      for (Index i = 0; i < line.size(); ++i)
+      {
+         for (const int c : {0, 1}) { rest[line.nodes[i].dofs[c]] -= contact(i, c); }
+      }
+      for (const Holding &one : held_.holdings)
+      {
+         Sum its;
+         for (const int dof : one.dofs) { its.add(held_.place[dof], along(dof, rest[dof])); }
+         named_.push_back({one.kind, one.name, its});
+      }
+      if (!held_.supports_left_out) { return; }
+      Sum left;
+      left.force = -loaded_.force - contact_.force;
+      left.moment = -loaded_.moment - contact_.moment;
+      for (const Named &one : named_)
+      {
+         left.force -= one.sum.force;
+         left.moment -= one.sum.moment;
+      }
+      named_.push_back({"support", "left out of the matrix", left});
+   }
+
+   Vector2d along(Index dof, double force) const
+   {
+      Vector2d made(0, 0);
+      if (plane_ || held_.component[dof] == 1) { made[held_.component[dof]] = force; }
+      return made;
+   }
+
+   OwnBodies &own_;
+   Reduction &reduction_;
+   const HeldBody &held_;
+   int body_;
+   bool plane_;
+   double thickness_;
+   const ContactState &state_;
+   VectorXd loads_, tied_, field_;
+   Sum contact_, obstacles_, loaded_;
+   double contact_largest_ = 0, loaded_largest_ = 0;
+   std::vector<Named> named_;
+};
+
+} // namespace
+
+void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
+                      const JointReport &report, const ContactState &state)
+{
+   const bool plane = joint.formulation == Formulation::plane;
+   ResultTable &reactions =
+      study.table("reactions", {{"body", "forces on"},
+                                {"kind", "by"},
+                                {"name", "called"},
+                                {"force_x", plane ? "x" : "", "%.6g"},
+                                {"force_y", plane ? "y" : "axial", "%.6g"},
+                                {"moment", plane ? "moment" : "", "%.4g"},
+                                {"about_x", plane ? "about x" : "", "%.5g"},
+                                {"about_y", plane ? "y" : "", "%.5g"}});
+   std::vector<std::pair<std::string, double>> balances;
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
+   {
+      const Forces forces(own, report, joint, static_cast<int>(b), state);
+      const std::string &name = own.scene.reduction.bodies[b].name;
+      const auto add = [&](const std::string &kind, const std::string &called, const Sum &sum)
+      {
+         const Vector2d about = sum.about();
+         const double x = settled(sum.force[0], sum.size), y = settled(sum.force[1], sum.size),
+                      moment =
+                         settled(sum.moment - about[0] * sum.force[1] + about[1] * sum.force[0],
+                                 2 * sum.lever);
+         study.row(reactions, {name, kind, called, plane ? x : none, y, plane ? moment : none,
+                               about[0], about[1]});
+      };
+      for (const Forces::Named &one : forces.held()) { add(one.kind, one.name, one.sum); }
+      if (joint.bodies[b].half_plane)
+      {
+         Sum far = forces.contact();
+         far.force *= -1;
+         far.moment *= -1;
+         add("half-plane", "far away", far);
+      }
+      if (forces.known()) { balances.emplace_back(name, forces.imbalance()); }
+   }
+   ResultTable &balance =
+      study.table("balance", {{"body", "body"},
+                              {"imbalance",
+                               plane ? "imbalance of forces and moments over the largest force"
+                                     : "imbalance of axial forces over the largest force",
+                               "%.1e"}});
+   for (const auto &[name, imbalance] : balances) { study.row(balance, {name, imbalance}); }
+}
+
+} // namespace miniapp

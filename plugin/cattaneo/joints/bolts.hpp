@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/reduced/reduction.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** A bolt that is tightened to a force: before it is tightened it does nothing, while it is
+    tightened it pulls with the force of the tool, afterwards it is a spring. In a load history
+    the multiplier of its load is its force at the end of the piece in which that multiplier
+    changes, in units of the load's forces: 1 if these are those of the preload. Where the
+    multiplier stays nobody turns the nut, and the force changes as the joint asks it to. */
+struct Bolt
+{
+   std::string load;     ///< of forces on its two ends that are each other's opposite
+   double stiffness = 1; ///< as Reduction::add_shank() has it, > 0
+};
+
+/** Bolts that are tightened in the order of a load history, each losing what the others'
+    tightening takes from it.
+
+    A bolt that is tightened is a force, those that were tightened before are shanks, the others
+    are not there: each part of the history has its own reduced problem, and nothing is found by
+    iterations. States are those of problem(), in which all bolts are shanks. The multiplier of
+    a bolt's load is its pretension T there: with N the force and g how far the ends have come
+    together N = T - stiffness · g. */
+class BoltedJoint
+{
+public:
+   /** @param loose     of all bodies, without these bolts and before obstacles move, its gaps
+                        and friction set
+       @param complete  adds what must come after shanks, motions of obstacles for instance
+       InputError if a load is not there or is of displacements, or H is not known. */
+   BoltedJoint(Reduction loose, std::vector<Bolt> bolts,
+               std::function<void(Reduction &)> complete = {});
+
+   /// With the shanks of all bolts: for fields, and whatever goes on from the tightened joint.
+   Reduction tightened() const;
+   /// Of tightened().
+   const ReducedProblem &problem() const { return problem_; }
+   /// Which bolts there are.
+   const std::vector<Bolt> &bolts() const { return bolts_; }
+   /// Number of a bolt's load among those of the problem.
+   Eigen::Index load(std::size_t bolt) const;
+   /// Of a state of problem(): the forces of the bolts, in units of their loads' forces.
+   Eigen::VectorXd forces(const ContactState &state) const;
+
+   /** As march(), of a history in which multipliers of bolts are forces, from a state of
+       problem(). A bolt that carries nothing any more and would push ends the march: its
+       status is `stopped`, the state and `event_time` are those at which its force is zero.
+
+       InputError if a bolt is never tightened, is loosened at the end, is tightened to a
+       negative force or within the cycle. */
+   MarchReport march(const LoadHistory &history, ContactState &state,
+                     const MarchSettings &settings = {},
+                     const MarchObserver &observer = {}) const;
+
+private:
+   struct Part;
+   int last_tightening(const LoadHistory &history) const;
+   Part part(const LoadPiece &piece, const ContactState &state) const;
+   Eigen::VectorXd approaches(const ReducedProblem &problem, const ContactState &state) const;
+   MarchReport march(const Part &part, ContactState &state, const MarchSettings &settings,
+                     const MarchObserver &observer) const;
+   std::size_t pushing(const Part &part, const ContactState &state) const;
+   void go_back(const Part &part, const ContactState &before, const ContactState &beyond,
+                std::size_t bolt, const MarchSettings &settings, ContactState &state) const;
+
+   Reduction loose_;
+   std::vector<Bolt> bolts_;
+   std::function<void(Reduction &)> complete_;
+   ReducedProblem problem_;
+};
+
+} // namespace cattaneo

@@ -1,0 +1,381 @@
+"""Loads, bolts and reactions of contact, against closed forms and equilibrium."""
+
+import math
+
+import pytest
+
+from programs import alike, body, changed, even, face, near, near_all, rectangle, shipped
+
+
+def columns_case(run, **bolt):
+    """Two columns of width 1 one on the other, ν = 0, E = 1000 and 500, with a bolt through both: 2/1000 + 3/500 per force."""
+    run.block("low.mesh", 0, 1, 4, 0, 2, 4)
+    run.block("high.mesh", 0, 1, 6, 2, 5, 4)
+    return {"bodies": {"low": body("low.mesh", "4:x 1:y"), "high": body("high.mesh", "4:x", ["F traction 3 0 1"], 500)},
+            "interfaces": {"joint": face("high:1", "low:3")},
+            "bolts": {"bolt": {"between": ["high:3", "low:1"], "stiffness": 300, "preload": 40, **bolt}}}
+
+
+COMPLIANCE = 2 / 1000 + 3 / 500
+SHARE = 300 * COMPLIANCE / (1 + 300 * COMPLIANCE)  # of a working load that the bolt takes
+
+
+def test_joint_diagram_up_to_separation_and_beyond(run):
+    """A preload is the force that the bolt has when it is tightened, not less. Then it takes its share of the working load, until the
+    joint opens, and all of it beyond."""
+    case = columns_case(run)
+    opens = 40 / (1 - SHARE)
+    for load in (0, 10, 0.999 * opens, 1.001 * opens, 2 * opens):
+        got = run.case({**case, "history": ["bolt=0", "bolt=1", f"F={load!r}"]})
+        force = 40 + SHARE * load if load < opens else load
+        near(got["bolts"][0]["tightened_to"], 40, 1e-9 * 40)
+        near(got["bolts"][0]["force"], force, 1e-9 * force)
+        near(got.interface("joint")["normal"], max(force - load, 0), 1e-9 * force)
+    # Tightened further, and to a part first: the force is that of the last turn of the nut.
+    got = run.case({**case, "history": ["bolt=0", "bolt=0.5", "F=10", "bolt=0.75", "F=0", "bolt=1"]})
+    near(got["bolts"][0]["force"], 40, 1e-9 * 40)
+    got = run.case({**case, "history": ["bolt=0", "bolt=1", "bolt=0.25", "F=10"]})
+    near(got["bolts"][0]["force"], 10 + SHARE * 10, 1e-9 * 40)
+
+
+def test_a_bolt_that_would_push_ends_the_march(run):
+    """Pressed together the joint takes from the bolt what it gives way: nothing is left at 40 (1 + s c)/s c."""
+    falls_loose = 40 / SHARE
+    case = {**columns_case(run), "history": ["bolt=0", "bolt=1", "F=-100"]}
+    got = run.case(case, code=2)
+    assert got["status"] == "stopped" and "the bolt 'bolt' carries nothing any more and would push" in got["message"]
+    near(got["event_loads"]["F"], -falls_loose, 1e-8 * falls_loose)
+    near(got["event_time"], 1 + falls_loose / 100, 1e-8)
+    near(got["loads"]["F"], -falls_loose, 1e-8 * falls_loose)
+    near(got["bolts"][0]["force"], 0, 1e-8 * 40)
+    assert run.case({**case, "history": ["bolt=0", "bolt=1", f"F={-0.999 * falls_loose!r}"]})["status"] == "converged"
+
+
+def test_bolts_that_are_not_tightened_yet_do_nothing(run):
+    """A second bolt beside the first: tightened first, it does what the first would without it."""
+    case = columns_case(run)
+    case["bolts"]["other"] = {"between": ["high:3", "low:1"], "stiffness": 500, "preload": 25}
+    got = run.case({**case, "history": ["bolt=0", "bolt=1", "F=10", "F=0", "other=1"]})
+    rows = {row["bolt"]: row for row in got["bolts"]}
+    # What the second takes from the first: that shares its 25 with the columns.
+    lost = 25 * SHARE
+    near(rows["bolt"]["tightened_to"], 40, 1e-8)
+    near(rows["bolt"]["all_tightened"], 40 - lost, 1e-8)
+    near(rows["bolt"]["most"], 40 + SHARE * 10, 1e-8)
+    near(rows["other"]["force"], 25, 1e-8)
+    near(got.interface("joint")["normal"], 65 - lost, 1e-8)
+    # In the other order, and both at once: each has what it is given.
+    got = run.case({**case, "history": ["bolt=0", "other=1", "bolt=0.5"]})
+    rows = {row["bolt"]: row for row in got["bolts"]}
+    near(rows["other"]["force"], 25 - 20 * 500 * COMPLIANCE / (1 + 500 * COMPLIANCE), 1e-8)
+    near(rows["bolt"]["force"], 20, 1e-8)
+    got = run.case({**case, "history": ["bolt=0", "bolt=1 other=1"]})
+    near_all([row["force"] - {"bolt": 40, "other": 25}[row["bolt"]] for row in got["bolts"]], 0, 1e-8)
+
+
+def test_two_bolts_in_either_order(run):
+    """A plate on an elastic bed, pressed evenly, with bolts at x = 2 and 7: what the second takes from the first follows from the
+    compliances of the tractions alone, a12/(1/s + a11) of its preload, and mirrored the orders change places."""
+    run.block("bed.mesh", 0, 10, 20, -2, 0, 4)
+    run.block("plate.mesh", 0, 10, 26, 0, 1, 3)
+
+    def case(first, second):
+        bolts = {name: {"between": [f"plate:3[{x - 0.5}<x<{x + 0.5}]", f"bed:1[{x - 0.5}<x<{x + 0.5}]"], "stiffness": 200, "preload": 3}
+                 for name, x in (("a", first), ("b", second))}
+        return {"bodies": {"bed": body("bed.mesh", "@5,-2:x @0,-2:y @10,-2:y", [], 1000, 0.3),
+                           "plate": body("plate.mesh", "@5,1:x", ["W pressure 3 2"], 1000, 0.3)},
+                "interfaces": {"flat": face("plate:1", "bed:3", 0)}, "bolts": bolts}
+
+    def pulls(x):
+        return f"traction 3[{x - 0.5}<x<{x + 0.5}] 0 -1", f"traction 1[{x - 0.5}<x<{x + 0.5}] 0 1"
+
+    # Their compliances by unit forces, with the bed pressed evenly and everywhere closed.
+    alone = {key: value for key, value in case(2, 7).items() if key != "bolts"}
+    for number, x in ((1, 2), (2, 7)):
+        plate, bed = pulls(x)
+        alone["bodies"]["plate"].setdefault("load", []).append(f"F{number} {plate}")
+        alone["bodies"]["bed"].setdefault("load", []).append(f"F{number} {bed}")
+    run.case({**alone, "history": ["W=0", "W=1", "F1=1", "F1=0 F2=1"]}, "--csv", run.folder / "alone")
+    history = run.columns("alone_history.csv")
+    at = {time: k for k, time in enumerate(history["time"])}
+    zero = {n: history[f"displacement F{n}"][at[1]] for n in (1, 2)}
+    a11 = history["displacement F1"][at[2]] - zero[1]
+    a22 = history["displacement F2"][at[3]] - zero[2]
+    a12 = history["displacement F1"][at[3]] - zero[1]
+    near(a12, history["displacement F2"][at[2]] - zero[2], 1e-10)
+    for history, first, own in ((["W=0", "W=1", "a=1", "b=1"], "a", a11), (["W=0", "W=1", "b=1", "a=1"], "b", a22)):
+        got = run.case({**case(2, 7), "history": history})
+        rows = {row["bolt"]: row for row in got["bolts"]}
+        second = "b" if first == "a" else "a"
+        near(rows[first]["tightened_to"], 3, 1e-9)
+        near(rows[first]["force"], 3 - 3 * a12 / (1 / 200 + own), 1e-8)
+        near(rows[second]["force"], 3, 1e-9)
+        mirrored = {row["bolt"]: row for row in run.case({**case(8, 3), "history": history})["bolts"]}
+        for name in ("a", "b"):
+            near(mirrored[name]["force"], rows[name]["force"], 1e-8)
+
+
+def test_a_march_with_bolts_is_taken_up(run):
+    """Once all bolts are tightened: to round-off the same forces."""
+    run.block("low.mesh", 0, 4, 16, 0, 1, 4)
+    run.block("high.mesh", 1, 6, 22, 1, 2, 4)
+    case = {"bodies": {"low": body("low.mesh", "4:xy", [], 1000, 0.3), "high": body("high.mesh", "@6,1.5:y", ["Q traction 2 1 0"], 1000, 0.3)},
+            "interfaces": {"flat": face("high:1[0<x<5]", "low:3", 0.4)},
+            "bolts": {name: {"between": [f"high:3[{x}<x<{x + 0.5}]", f"low:1[{x}<x<{x + 0.5}]"], "stiffness": 500, "preload": 8}
+                      for name, x in (("a", 1.5), ("b", 3))},
+            "history": ["a=0", "a=1", "Q=0.5", "b=1", "Q=1", "Q=-1", "Q=1"], "cycle-start": 4, "cycles": 2, "increments": 4}
+    whole = run.case(case, "--csv", run.folder / "whole")
+    last = run.columns("whole_nodes.csv")
+    for points in (4, 5):
+        state = run.folder / "state.json"
+        run.case({**changed(case, {"cycle-start": None, "cycles": None}), "history": case["history"][:points]}, "--save-state", state)
+        got = run.case(case, "--load-state", state, "--csv", run.folder / "rest")
+        alike(run.columns("rest_nodes.csv")["p"], last["p"], 1e-9 * max(last["p"]))
+        for one, other in zip(got["bolts"], whole["bolts"]):
+            near(one["force"], other["force"], 1e-8)
+
+
+def test_thickness(run):
+    """Forces as they are: of a joint of thickness 5 all are five times those per thickness, pressures and displacements are the same."""
+    case = {**columns_case(run), "history": ["bolt=0", "bolt=1", "F=10", "F=20", "F=10"], "cycle-start": 2, "cycles": 2}
+    one = run.case(case, "--csv", run.folder / "one")
+    thick = changed(case, {"thickness": 5, "bolts.bolt.stiffness": 1500, "bolts.bolt.preload": 200})
+    five = run.case(thick, "--csv", run.folder / "five")
+    assert five["thickness"] == 5 and "thickness 5: forces, moments and energies are those of the whole thickness" in five.output
+    near(five["bolts"][0]["force"], 5 * one["bolts"][0]["force"], 1e-9)
+    near(five.interface("joint")["normal"], 5 * one.interface("joint")["normal"], 1e-9)
+    near(five["peak_pressure"], one["peak_pressure"], 1e-10)
+    for name in ("p", "slip", "opening"):
+        alike(run.columns("one_nodes.csv")[name], run.columns("five_nodes.csv")[name], 1e-10)
+    # Bodies of their own thickness: compliances 2/(1000·2) + 3/(500·4), and the joint has the thinner one.
+    own = changed(thick, {"bodies.low.thickness": 2, "bodies.high.thickness": 4, "bolts.bolt.stiffness": 300, "bolts.bolt.preload": 40,
+                          "history": ["bolt=0", "bolt=1", "F=10"], "cycle-start": None, "cycles": None})
+    got = run.case(own)
+    compliance = 2 / (1000 * 2) + 3 / (500 * 4)
+    load = 4 * 10  # a traction of 10 on a width of 1 and a thickness of 4
+    force = 40 + 300 * compliance / (1 + 300 * compliance) * load
+    near(got["bolts"][0]["force"], force, 1e-8)
+    near(got["peak_pressure"], (force - load) / 2, 1e-8)
+    # A force on a rigid block is a force.
+    pushed = changed(own, {"bodies.high.load": None, "bodies.high.guides": [{"on": "3", "y": {"force": "F", "value": 4}, "rotation": "held"}],
+                           "bodies.high.support": None, "bolts": None, "history": ["F=0", "F=-1"]})
+    got = run.case(pushed)
+    near(got.interface("joint")["normal"], 4, 1e-10)
+    for wrong, said in (({"analysis": "axisymmetric"}, "about an axis"), ({"thickness": None}, "key 'thickness' must be there"), ({"thickness": -1}, "thickness")):
+        assert said in run.refused(changed(own, wrong))
+
+
+def test_a_bolt_to_the_ground(run):
+    """A column that a bolt pulls onto a rigid floor: it is one column less."""
+    run.block("column.mesh", 0, 1, 4, 0, 2, 4)
+    case = {"bodies": {"column": body("column.mesh", "4:x", ["F traction 3 0 1"])}, "interfaces": {"floor": {"between": ["column:1"]}},
+            "bolts": {"anchor": {"between": ["column:3"], "direction": [0, 1], "stiffness": 300, "preload": 40}}}
+    share = 300 * 0.002 / (1 + 300 * 0.002)
+    opens = 40 / (1 - share)
+    for load in (0, 10, 0.999 * opens, 1.5 * opens):
+        got = run.case({**case, "history": ["anchor=0", "anchor=1", f"F={load!r}"]})
+        force = 40 + share * load if load < opens else load
+        near(got["bolts"][0]["force"], force, 1e-9 * force)
+        near(got.interface("floor")["normal"], max(force - load, 0), 1e-9 * force)
+    assert "must have a direction, which points from the ground" in run.refused(changed(case, {"bolts.anchor.direction": None}))
+
+
+def test_bolts_that_are_wrong_are_told(run):
+    """One sentence each."""
+    case = {**columns_case(run), "history": ["bolt=0", "bolt=1"]}
+    for changes, said in (({"history": ["F=0", "F=1"]}, "the bolt 'bolt' is never tightened"),
+                          ({"history": ["bolt=0", "bolt=-1"]}, "is tightened to -1, must not be negative"),
+                          ({"history": ["bolt=0", "bolt=1", "bolt=0"]}, "is loosened at the end"),
+                          ({"history": ["bolt=1", "bolt=1"]}, "is 1 at the first point, must be 0"),
+                          ({"history": ["bolt=0", "bolt=1", "bolt=2", "bolt=1"], "cycle-start": 1}, "changes within the cycle"),
+                          ({"bolts.bolt.pretension": 3}, "has both of the keys preload and pretension"),
+                          ({"bolts.bolt.preload": None}, "has none of the keys preload and pretension")):
+        assert said in run.refused(changed(case, changes)), said
+
+
+def stick_of(got):
+    """Middle and half-width of the stick zone, and of the contact."""
+    zones = [zone for zone in got["zones"] if zone["state"] != "separation"]
+    stick = [zone for zone in zones if zone["state"] == "stick"]
+    assert len(stick) == 1
+    middle, half = (zones[0]["from"] + zones[-1]["to"]) / 2, (zones[-1]["to"] - zones[0]["from"]) / 2
+    return ((stick[0]["from"] + stick[0]["to"]) / 2 - middle) / half, (stick[0]["to"] - stick[0]["from"]) / 2 / half
+
+
+def test_a_rig_with_bulk_stress_in_step_and_in_opposition(run):
+    """Nowell and Hills: the stick zone moves by e = a σ/(4 f p0), whatever the pad's size does to the rest."""
+    case = shipped("fretting_rig")
+    case["history"], case["cycles"], case["cycle-start"] = ["P=0", "P=1", "Q=1"], 1, -1
+    shifts = {}
+    for stress in (100, -100, 0):
+        got = run.case(changed(case, {"bodies.specimen.load": f"Q bulk-stress {stress}"}))
+        shifts[stress], half = stick_of(got)
+        near(half, math.sqrt(1 - 0.6), 0.01)
+    near((shifts[100] - shifts[-100]) / 2, 100 / (4 * 0.5 * 383.3), 0.003)
+    near(shifts[0], 0, 0.01)  # the ± of borders, 0.0026 mm of 0.33, and what is left of the pad's size
+    # As a load of its own, beside the pad's: the same.
+    own = changed(case, {"bodies.specimen.load": "S bulk-stress 1", "history": ["P=0", "P=1", "Q=1 S=100"]})
+    near(stick_of(run.case(own))[0], shifts[100], 1e-9)
+    for load, said in (("Q pressure 3", "must be PATTERN bulk-stress VALUE"), ("Q bulk-stress x", "'x' is not a number")):
+        assert said in run.refused(changed(case, {"bodies.specimen.load": load}))
+
+
+@pytest.mark.parametrize("depth", [None, 100])
+def test_bulk_stress_alone_is_felt_by_friction_alone(run, depth):
+    """Without friction a bulk stress changes no pressure of equal bodies; a pad tied to the half-plane holds it back."""
+    run.block("pad.mesh", -1, 1, 16, 0, 1, 6)
+    case = {"bodies": {"pad": body("pad.mesh", "", ["P pressure 3 1"], 1000, 0.3),
+                       "ground": {"half-plane": {"young": 1000, "poisson": 0.3}, "load": ["S bulk-stress 2", "S bulk-stress 1"]}},
+            "interfaces": {"flat": face("pad:1", "ground", 0)}, "history": ["P=0", "P=1", "S=1"]}
+    if depth:
+        case["bodies"]["ground"]["half-plane"]["depth"] = depth
+    case["bodies"]["pad"]["support"] = "@0,1:x" if depth else ""
+    run.case(case, "--csv", run.folder / "out", "--frames", "1 2")
+    table = run.columns("out_nodes.csv")
+    half = len(table["p"]) // 2
+    alike(table["p"][:half], table["p"][half:], 1e-9)
+    # Their slip is the strain of the surface, 3 (1 - ν²)/E.
+    slip = [b - a for a, b in zip(table["slip"][:half], table["slip"][half:])]
+    rates = {round((slip[k] - slip[0]) / (table["x"][k] - table["x"][0]), 12) for k in range(1, half)}
+    for rate in rates:
+        near(abs(rate), 3 * (1 - 0.09) / 1000, 1e-9)
+
+
+def indenter(run, **guide):
+    """A rigid cylinder of radius 10 on a block, ν = 0.3; its side is graded to the middle."""
+    run.write("block.mesh", rectangle([x * abs(x) / 6 for x in even(-6, 6, 48)], [-6 + y - y * y / 24 for y in even(0, 12, 16)]))
+    return {"bodies": {"block": body("block.mesh", "1:xy", [], 1000, 0.3)},
+            "interfaces": {"face": {"between": ["block:3"], "friction": 0.3, "obstacle": {"circle": {"centre": [0, 10], "radius": 10}},
+                                    "guide": {"centre": [0, 10], **guide}}}}
+
+
+def test_an_indenter_under_a_force(run):
+    """Pressed by a force and by the displacement that it made: the same contact, and each is the other's conjugate. Then it is rolled
+    by a moment, and pushed while it is free to turn: nothing is left of the moment about its centre."""
+    pressed = run.case({**indenter(run, x="held", y={"force": "P", "value": -20}), "history": ["P=0", "P=1"]}, "--csv", run.folder / "force")
+    near(pressed.interface("face")["normal"], 20, 1e-9)
+    deep = run.columns("force_history.csv")["displacement P"][-1] / 20
+    moved = run.case({**indenter(run, x="held", y={"displacement": "D", "value": -1}), "history": ["D=0", f"D={deep!r}"]}, "--csv", run.folder / "moved")
+    alike(run.columns("force_nodes.csv")["p"], run.columns("moved_nodes.csv")["p"], 1e-8 * max(run.columns("force_nodes.csv")["p"]))
+    near(run.columns("moved_history.csv")["reaction D"][-1], 20, 1e-8)
+    assert pressed["interfaces"][0]["force_y"] < 0
+    # Hertz, without friction, on a half-plane, of which the block is the middle: a² = 4 P R/(π E'), p0 = 2 P/(π a), and a is a twelfth
+    # of the block's depth.
+    smooth = run.case(changed({**indenter(run, x="held", y={"force": "P", "value": -20}), "history": ["P=0", "P=1"]}, {"interfaces.face.friction": 0}))
+    half = math.sqrt(4 * 20 * 10 / (math.pi * 1000 / 0.91))
+    near(smooth["peak_pressure"] / (2 * 20 / (math.pi * half)), 1, 0.005)
+    # A moment that rolls it, at a constant force; without friction it would spin.
+    rolled = {**indenter(run, x="held", y={"force": "P", "value": -20}, rotation={"moment": "M", "value": 10}), "history": ["P=0", "P=1", "M=1"]}
+    got = run.case(rolled, "--csv", run.folder / "rolled")
+    # The contact's forces on the block have the moment -10 about the centre on the obstacle, and no net force across.
+    face_ = got.interface("face")
+    about = face_["moment"] + (face_["about_x"] - 0) * face_["force_y"] - (face_["about_y"] - 10) * face_["force_x"]
+    near(about, 10, 1e-8)
+    assert run.columns("rolled_history.csv")["displacement M"][-1] > 0
+    # Free to move across and to turn, pushed: rolling needs no force to begin with, and nothing balances it.
+    free = {**indenter(run, y={"force": "P", "value": -20}, x={"force": "Q", "value": 1}, rotation="free"), "history": ["P=0", "P=1", "Q=1"]}
+    got = run.case(free, code=None)
+    if got["status"] == "converged":
+        face_ = got.interface("face")
+        near(face_["moment"] + face_["about_x"] * face_["force_y"] - (face_["about_y"] - 10) * face_["force_x"], 0, 1e-8)
+        near(face_["force_x"], 1, 1e-9)
+    for changes, said in (({"interfaces.face.guide.centre": None, "interfaces.face.guide.rotation": "free"}, "must have the centre"),
+                          ({"interfaces.face.motion": {"D": {"y": 1}}}, "goes without the key motion"),
+                          ({"interfaces.face.guide.y": {"force": "P", "displacement": "D"}}, "must have one of the keys force and displacement")):
+        assert said in run.refused(changed(rolled, changes))
+
+
+def test_named_points(run):
+    """A column under its load, ν = 0.25: stresses and displacements anywhere, of each body that has the point; below a half-plane."""
+    run.block("low.mesh", 0, 1, 4, 0, 2, 4)
+    run.block("high.mesh", 0, 1, 6, 2, 5, 4)
+    case = {"analysis": "plane stress", "history": ["P=0", "P=1"], "increments": 2, "stepping": "fixed",
+            "bodies": {"low": body("low.mesh", "4:x 1:y", [], 1000, 0.25), "high": body("high.mesh", "4:x", ["P pressure 3 2"], 500, 0.25)},
+            "interfaces": {"joint": face("high:1", "low:3", 0)},
+            "points": {"top": [1, 5], "joint": [0.3, 2], "middle": {"body": "low", "at": [0.5, 1]}}}
+    got = run.case(case, "--csv", run.folder / "out")
+    rows = {(row["point"], row["body"]): row for row in got["points"]}
+    assert set(rows) == {("top", "high"), ("joint", "low"), ("joint", "high"), ("middle", "low")}
+    for row in rows.values():
+        near(row["yy"], -2, 1e-10)
+        near(row["xx"], 0, 1e-10)
+        near(row["von_mises"], 2, 1e-10)
+    near(rows["middle", "low"]["uy"], -2 * 1 / 1000, 1e-12)
+    near(rows["middle", "low"]["ux"], 0.25 * 2 / 1000 * 0.5, 1e-12)
+    near(rows["top", "high"]["uy"], -2 * (2 / 1000 + 3 / 500), 1e-12)
+    table = run.columns("out_point_history.csv")
+    assert len(table["time"]) == 4 * len(set(table["time"]))
+    assert "key 'points.far': (3, 3) is in no body" in run.refused(changed(case, {"points.far": [3, 3]}))
+    assert "there is no body 'x'" in run.refused(changed(case, {"points.far": {"body": "x", "at": [0, 0]}}))
+    ground = run.case({"bodies": {"pad": body("high.mesh", "@0.5,5:x", ["P pressure 3 1"], 1000, 0.3),
+                                  "ground": {"half-plane": {"young": 1000, "poisson": 0.3, "depth": 50}, "load": "S bulk-stress 3"}},
+                       "interfaces": {"flat": face("pad:1", "ground", 0)}, "history": ["P=0", "P=1", "P=0 S=1"],
+                       "points": {"below": [0.5, 1], "deep": {"body": "ground", "at": [0.2, -3]}}})
+    for row in ground["points"]:
+        near(row["xx"], 3, 1e-9)
+        near(row["yy"], 0, 1e-9)
+        near(row["zz"], 0.9, 1e-9)
+
+
+def test_ties_alone(run):
+    """Two columns that are tied, ν = 0: stresses, displacements, reactions and what the tie transfers by hand, over a history with a
+    cycle, with fields and a table."""
+    run.block("low.mesh", 0, 1, 4, 0, 2, 4)
+    run.block("high.mesh", 0, 1, 6, 2, 5, 4)
+    case = {"bodies": {"low": body("low.mesh", "4:x 1:y"), "high": body("high.mesh", "4:x", ["F traction 3 0 1"], 500)},
+            "interfaces": {"joint": {"between": ["high:1", "low:3"], "tied": True}}, "points": {"top": [1, 5]},
+            "history": ["F=0", "F=4", "F=-2", "F=4"], "cycle-start": 1, "cycles": 3, "increments": 2}
+    got = run.case(case, "--csv", run.folder / "out", "--paraview", run.folder / "fields", "--html", run.folder / "page.html")
+    assert got["status"] == "converged" and got["loads"]["F"] == 4
+    near(got["points"][0]["uy"], 4 * (2 / 1000 + 3 / 500), 1e-12)
+    near(got.interface("joint")["normal"], -4, 1e-10)
+    held = {row["name"]: row for row in got["reactions"] if row["body"] == "low"}
+    near(held["1:y"]["force_y"], -4, 1e-10)
+    near(run.columns("out_history.csv")["displacement F"][-1], 4 * (2 / 1000 + 3 / 500), 1e-12)
+    for row in got["balance"]:
+        assert row["imbalance"] < 1e-10
+
+
+def test_reactions_by_name(run):
+    """A beam on two supports under a load off its middle, and a guide: by levers."""
+    run.block("beam.mesh", 0, 10, 40, 0, 1, 4)
+    run.block("foot.mesh", 0, 10, 40, -1, 0, 4)
+    got = run.case({"bodies": {"beam": body("beam.mesh", "", ["P pressure 3[2<x<3] 8"], 1000, 0.3), "foot": body("foot.mesh", "@0,-1:xy @10,-1:y", [], 1000, 0.3)},
+                    "interfaces": {"joint": {"between": ["beam:1", "foot:3"], "tied": True}}, "history": ["P=0", "P=1"]})
+    held = {row["name"]: row for row in got["reactions"]}
+    near(held["@0,-1:xy"]["force_y"], 8 * 7.5 / 10, 1e-9)
+    near(held["@10,-1:y"]["force_y"], 8 * 2.5 / 10, 1e-9)
+    near(held["@0,-1:xy"]["force_x"], 0, 1e-9)
+    assert held["@10,-1:y"]["about_x"] == 10
+    # A cantilever in a guide that is held: force and moment about its middle.
+    got = run.case({"bodies": {"beam": {**body("beam.mesh", "", ["P pressure 3[8<x<9] 2"], 1000, 0.3), "guides": [{"on": "4", "x": "held", "y": "held", "rotation": "held"}]},
+                               "foot": body("foot.mesh", "1:xy", [], 1000, 0.3)},
+                    "interfaces": {"joint": {**face("beam:1", "foot:3"), "gap": 10}}, "history": ["P=0", "P=1"]})
+    row = next(row for row in got["reactions"] if row["kind"] == "guide")
+    near(row["force_y"], 2, 1e-9)
+    near(row["moment"], 2 * 8.5, 1e-8)
+    near(row["about_y"], 0.5, 1e-12)
+
+
+SHIPPED = ["bolted_joint", "bolted_joint_drawing", "dovetail", "fretting_pad", "fretting_rig", "pin", "punch_on_half_plane", "rounded_punch", "SSNP154"]
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_every_body_of_shipped_cases_balances(run, name):
+    """Supports, guides, loads and contact on each body add up to nothing."""
+    case = shipped(name)
+    got = run.case({**case, **({"cycles": 1} if "cycles" in case else {})})
+    assert got["balance"]
+    for row in got["balance"]:
+        assert row["imbalance"] < 1e-9, got["balance"]
+
+
+def test_zones_have_places(run):
+    """The ends of zones lie on the side, as far along it as their arc length says."""
+    case = shipped("fretting_pad")
+    got = run.case({**case, "history": ["P=0", "P=1"], "cycles": 1, "cycle-start": -1})
+    for zone in got["zones"]:
+        for end in ("from", "to"):
+            x, y = zone[end + "_x"], zone[end + "_y"]
+            near(abs(x), abs(zone[end] - 0.6), 1e-4)
+            near(y, 50 - math.sqrt(50 * 50 - x * x), 1e-5)
