@@ -25,6 +25,7 @@ to run commands in. What is checked:
 * docs/faq.md explains each outcome that the library has a name for.
 * Keys of citations, as [Hertz 1882] in headers, are in docs/references.md, and all that are there are cited.
   Years beside names without brackets are no citation.
+* Sentences, cells of tables and terms of README.md, docs/ and messages are as words.py asks.
 
 seconds.json has the processor time of each command. Without --all the shortest ones run, each below two seconds
 and together below six. --measure writes it.
@@ -42,6 +43,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import rooms  # noqa: E402
+import words  # noqa: E402
 
 SECONDS_OF_ONE, SECONDS_OF_ALL = 2.0, 6.0
 
@@ -294,6 +296,7 @@ class Guide:
                 page.write_text(written, encoding="utf-8")
         self.check_citations()
         self.check_outcomes()
+        self.faults += words.faults(self.source)[0]
         if self.mode == "--measure":
             self.timing.write_text(json.dumps(dict(sorted(self.measured.items())), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         print(f"{len(self.pages)} pages, {len(self.measured)} commands in {sum(self.measured.values()):.1f} s")

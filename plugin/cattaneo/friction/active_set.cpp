@@ -80,7 +80,7 @@ bool polished(Increment &at)
    const VectorXd u = at.u;
    const std::vector<NodeState> status = at.status;
    if (newton(at)) { return true; }
-   at.take(u, status);
+   at.move_to(u, status);
    return ends_with_least_motion(at);
 }
 
@@ -88,7 +88,7 @@ bool newton_after_sweeps(Increment &at, int sweeps)
 {
    at.go_back();
    for (int k = 0; k < sweeps; ++k) { sweep(at); }
-   at.take_pieces();
+   at.find_pieces();
    at.swept = {at.u, at.status};
    return newton(at);
 }

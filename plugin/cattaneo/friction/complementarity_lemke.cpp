@@ -20,9 +20,9 @@ bool let_slip(StateEquations &equations, const VectorXd &x)
    std::vector<NodeState> states = equations.states();
    for (Index i = 0; i < equations.nodes(); ++i)
    {
-      if (closed(states[i]) && equations.smooth(i))
+      if (closed(states[i]) && equations.frictionless(i))
       {
-         states[i] = equations.smooth_contact(i, x);
+         states[i] = equations.frictionless_contact(i, x);
       }
    }
    return equations.set(states);
@@ -49,7 +49,7 @@ private:
       below,    ///< p >= where the piece of its bound begins, with the piece below
       above     ///< p <= where it ends, with the piece above
    };
-   /// Of a bound that bends: the line that holds between two pressures.
+   /// The line of a bound that bends, between two pressures.
    struct Piece
    {
       FrictionBound line;
@@ -64,7 +64,7 @@ private:
                 double one = 1) const;
    bool bends(Index i) const { return !bounds_.empty() && bounds_[i].bends(); }
    void set_out_from(Index i, const std::function<double()> &some);
-   void take_piece(Index i, double p);
+   void set_piece(Index i, double p);
    bool exchange(Index i, Kind kind);
    static Kind partner(Kind kind, double sense);
    VectorXd intercepts() const;
@@ -122,10 +122,10 @@ void Lemke::set_out_from(Index i, const std::function<double()> &some)
       else { x_[m] = std::max(x_[m], 0.0) + some() / stiffness[m]; }
    }
    if (!tangential_) { return; }
-   if (bends(i)) { take_piece(i, F_[m]); }
+   if (bends(i)) { set_piece(i, F_[m]); }
    // 2. A shear beyond the bound, which vanishes on the way.
    sense_[i] = sense(state);
-   const bool friction_acts = choice == Choice::any && !equations_.smooth(i);
+   const bool friction_acts = choice == Choice::any && !equations_.frictionless(i);
    if (friction_acts)
    {
       h_[i] = some();
@@ -156,7 +156,7 @@ void Lemke::set_out_from(Index i, const std::function<double()> &some)
 }
 
 /// The piece of a bound at a pressure; at a bend the one below it.
-void Lemke::take_piece(Index i, double p)
+void Lemke::set_piece(Index i, double p)
 {
    // A bend that p is on ends the piece.
    const double inside = std::nextafter(p, -infinity);
@@ -172,7 +172,7 @@ void Lemke::for_each_inequality(Index i, Visitor visit) const
    if (!any && choice != Choice::forward && choice != Choice::backward) { return; }
    const bool in_contact = closed(equations_.states()[i]);
    if (any) { visit(in_contact ? pressure : gap); }
-   if (equations_.smooth(i)) { return; }
+   if (equations_.frictionless(i)) { return; }
    if (in_contact && bends(i))
    {
       if (std::isfinite(pieces_[i].begin)) { visit(below); }
@@ -244,20 +244,23 @@ bool Lemke::exchange(Index i, Kind kind)
    const bool in_contact = closed(equations_.states()[i]);
    if (kind == below || kind == above)
    {
-      take_piece(i,
-                 kind == below ? pieces_[i].begin : std::nextafter(pieces_[i].end, infinity));
+      set_piece(i, kind == below ? pieces_[i].begin : std::nextafter(pieces_[i].end, infinity));
       return equations_.set(i, equations_.states()[i]);
    }
    const bool stays_closed = kind == gap || (kind != pressure && in_contact);
-   if (kind == gap && bends(i)) { take_piece(i, 0); }
+   if (kind == gap && bends(i)) { set_piece(i, 0); }
    if (kind == forward) { sense_[i] = 1; }
    if (kind == backward) { sense_[i] = -1; }
    if (kind == way) { sense_[i] = 0; }
    if (!stays_closed)
    {
-      return equations_.set(i, NodeState::separation, !equations_.smooth(i) && sense_[i] == 0);
+      return equations_.set(i, NodeState::separation,
+                            !equations_.frictionless(i) && sense_[i] == 0);
    }
-   if (equations_.smooth(i)) { return equations_.set(i, equations_.smooth_contact(i, x_)); }
+   if (equations_.frictionless(i))
+   {
+      return equations_.set(i, equations_.frictionless_contact(i, x_));
+   }
    return equations_.set(i, sense_[i] > 0   ? NodeState::forward_slip
                             : sense_[i] < 0 ? NodeState::backward_slip
                                             : NodeState::stick);
@@ -272,7 +275,8 @@ bool Lemke::find_direction()
    return true;
 }
 
-/// Of the pieces of the nodes that slip, with the sense of the slip: what does not go with p.
+/// The part of the pieces that does not go with p, of the nodes that slip, with the sense of
+/// their slip.
 VectorXd Lemke::intercepts() const
 {
    VectorXd constant = VectorXd::Zero(problem_.b.size());

@@ -25,10 +25,10 @@ NodeState wanted(const StateEquations &equations, Choice choice, Index i, const 
    {
    case Choice::open:
       return NodeState::separation;
-   case Choice::held:
+   case Choice::stick:
       return NodeState::stick;
    case Choice::sliding:
-      return equations.smooth_contact(i, x);
+      return equations.frictionless_contact(i, x);
    case Choice::forward:
    case Choice::backward:
    {
@@ -45,10 +45,10 @@ NodeState wanted(const StateEquations &equations, Choice choice, Index i, const 
    node.gap = x[m];
    node.p = F[m];
    node.kn = stiffness[m];
-   if (equations.smooth(i))
+   if (equations.frictionless(i))
    {
       const NodeState next = wanted_state(node, s, tiny, tiny);
-      return closed(next) ? equations.smooth_contact(i, x) : next;
+      return closed(next) ? equations.frictionless_contact(i, x) : next;
    }
    node.slip = x.segment<1>(i);
    node.q = F.segment<1>(i);

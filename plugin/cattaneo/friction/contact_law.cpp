@@ -139,8 +139,8 @@ NodeState friction_state(const ContactNode &node, double margin)
    if (trial.size() == 2)
    {
       const double size = std::hypot(trial[0], trial[1]);
-      const bool held = size <= node.bound.at(node.p) + margin || size == 0;
-      return held ? NodeState::stick : NodeState::slip;
+      const bool sticks = size <= node.bound.at(node.p) + margin || size == 0;
+      return sticks ? NodeState::stick : NodeState::slip;
    }
    if (trial[0] < -node.bound.at(node.p, 1) - margin) { return NodeState::forward_slip; }
    if (trial[0] > node.bound.at(node.p, -1) + margin) { return NodeState::backward_slip; }
@@ -197,17 +197,17 @@ NodeState natural_state(const ContactNode &node)
 NodeResidual residual(const ContactNode &node)
 {
    NodeResidual R{std::min(node.kn * node.gap, node.p), node.trial()};
-   NodeVector &held = R.tangential;
-   if (held.size() == 1)
+   NodeVector &bounded = R.tangential;
+   if (bounded.size() == 1)
    {
-      held[0] = std::clamp(held[0], -node.bound.at(node.p, 1), node.bound.at(node.p, -1));
+      bounded[0] = std::clamp(bounded[0], -node.bound.at(node.p, 1), node.bound.at(node.p, -1));
    }
-   if (held.size() == 2)
+   if (bounded.size() == 2)
    {
-      const double size = std::hypot(held[0], held[1]), limit = node.bound.at(node.p);
-      if (size > limit) { held *= limit / size; }
+      const double size = std::hypot(bounded[0], bounded[1]), limit = node.bound.at(node.p);
+      if (size > limit) { bounded *= limit / size; }
    }
-   R.tangential = node.q - held;
+   R.tangential = node.q - bounded;
    return R;
 }
 

@@ -94,10 +94,10 @@ CriticalFriction critical_friction(const ReducedProblem &problem)
    if (c == 0) { return result; }
    for (Index i = 0; i < n; ++i)
    {
-      const double own = critical_friction(lone_node(problem, i));
-      if (own < result.node)
+      const double alone = critical_friction(lone_node(problem, i));
+      if (alone < result.node)
       {
-         result.node = own;
+         result.node = alone;
          result.weakest_node = i;
       }
    }

@@ -17,16 +17,16 @@ namespace
 {
 
 /// One node over an increment, from which it follows where in it the node begins to slip.
-struct NodePath
+struct NodeWay
 {
-   NodePath(const ReducedProblem &problem, const ContactState &before,
-            const ContactState &after, Index node);
+   NodeWay(const ReducedProblem &problem, const ContactState &before, const ContactState &after,
+           Index node);
 
    NodeVector q0, q1, slip, own; ///< own: tangential stiffness of the node
    double p0, p1;
    FrictionBound bound;
    double sense; ///< of the slip in the plane
-   /// Of the force as if the node stuck to the end, which changes linearly.
+   /// The change of the force as if the node stuck to the end, which is linear.
    NodeVector turning;
    /// (|force|² less the square of the bound) over the share s of the increment: c + b s + a
    /// s².
@@ -35,8 +35,8 @@ struct NodePath
    double steepness() const { return 2 * a * start + b; }
 };
 
-NodePath::NodePath(const ReducedProblem &problem, const ContactState &before,
-                   const ContactState &after, Index node)
+NodeWay::NodeWay(const ReducedProblem &problem, const ContactState &before,
+                 const ContactState &after, Index node)
    : q0(problem.components()), q1(q0), slip(q0), own(q0), p0(std::max(before.p[node], 0.0)),
      p1(std::max(after.p[node], 0.0)), bound(friction_bound(problem, node)), sense(0)
 {
@@ -69,9 +69,9 @@ Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
    Rubbing result{VectorXd::Zero(nodes), before.p.cwiseMax(0.0), after.p.cwiseMax(0.0)};
    for (Index i = 0; i < nodes; ++i)
    {
-      const NodePath path(problem, before, after, i);
-      result.way[i] = magnitude(path.slip);
-      if (result.way[i] > 0) { result.p_from[i] += path.start * (path.p1 - path.p0); }
+      const NodeWay passed(problem, before, after, i);
+      result.way[i] = magnitude(passed.slip);
+      if (result.way[i] > 0) { result.p_from[i] += passed.start * (passed.p1 - passed.p0); }
    }
    return result;
 }
@@ -94,25 +94,25 @@ RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const Contac
                                      const ContactState &after, Index node, double by_way,
                                      double by_from, double by_to)
 {
-   const NodePath path(problem, before, after, node);
-   const double way = magnitude(path.slip), s = path.start, f = path.bound.slope(),
-                dp = path.p1 - path.p0;
-   const NodeVector none = NodeVector::Zero(path.slip.size());
+   const NodeWay passed(problem, before, after, node);
+   const double way = magnitude(passed.slip), s = passed.start, f = passed.bound.slope(),
+                dp = passed.p1 - passed.p0;
+   const NodeVector none = NodeVector::Zero(passed.slip.size());
    RubbingDerivative by{none, none, none, none};
    if (way == 0) { return by; }
-   by.slip = by_way / way * path.slip;
+   by.slip = by_way / way * passed.slip;
    by.p0 = by_from * (1 - s);
    by.p1 = by_from * s + by_to;
-   if (s > 0 && s < 1 && path.steepness() > 0)
+   if (s > 0 && s < 1 && passed.steepness() > 0)
    {
       // p_from = p0 + s dp, and ds = -(dc + s db + s² da)/steepness.
-      const double by_root = -by_from * dp / path.steepness();
-      const NodeVector by_force = 2 * by_root * (path.q0 + s * path.turning);
+      const double by_root = -by_from * dp / passed.steepness();
+      const NodeVector by_force = 2 * by_root * (passed.q0 + s * passed.turning);
       by.q1 = s * by_force;
       by.q0 = (1 - s) * by_force;
-      by.slip -= s * path.own.cwiseProduct(by_force);
-      by.stiffness = -s * path.slip.cwiseProduct(by_force);
-      const double p = path.p0 + s * dp, by_bound = -2 * by_root * f * p; // of f p there
+      by.slip -= s * passed.own.cwiseProduct(by_force);
+      by.stiffness = -s * passed.slip.cwiseProduct(by_force);
+      const double p = passed.p0 + s * dp, by_bound = -2 * by_root * f * p; // of f p there
       by.friction = by_bound * p;
       by.p0 += by_bound * f * (1 - s);
       by.p1 += by_bound * f * s;

@@ -52,13 +52,13 @@ void ExactPath::find_choices(const ContactState &state)
       else if (p <= noise_[i]) { choice = Choice::any; }
       else if (bound.none()) { choice = Choice::sliding; }
       else if (way != 0) { choice = way > 0 ? Choice::forward : Choice::backward; }
-      else if (std::min(forward, backward) > noise_[i]) { choice = Choice::held; }
+      else if (std::min(forward, backward) > noise_[i]) { choice = Choice::stick; }
       else { choice = forward < backward ? Choice::forward : Choice::backward; }
    }
 }
 
-/// Takes the piece of a node's bound at a pressure. False if it is that already.
-bool ExactPath::take_piece(Index node, double pressure)
+/// Sets the piece of a node's bound at a pressure. False if it is that already.
+bool ExactPath::set_piece(Index node, double pressure)
 {
    const FrictionBound piece = bounds_.given[node].straight(pressure);
    const auto same = [&](double sense)
@@ -88,11 +88,11 @@ bool ExactPath::find_pieces(const ContactState &state)
       const double nearest = p - below < above - p ? below : above;
       if (std::abs(p - nearest) > noise_[i])
       {
-         changed = take_piece(i, p) || changed;
+         changed = set_piece(i, p) || changed;
          continue;
       }
       bounds_.bends.push_back({i, nearest, 1.0});
-      changed = take_piece(i, std::nextafter(nearest, 2 * nearest)) || changed;
+      changed = set_piece(i, std::nextafter(nearest, 2 * nearest)) || changed;
    }
    return changed;
 }
@@ -107,14 +107,15 @@ bool ExactPath::turn_bends()
    {
       if (bend.side * F_rate_[n + bend.node] >= -tiny) { continue; }
       bend.side = -bend.side;
-      take_piece(bend.node, bend.side > 0 ? std::nextafter(bend.pressure, 2 * bend.pressure)
-                                          : bend.pressure);
+      set_piece(bend.node, bend.side > 0 ? std::nextafter(bend.pressure, 2 * bend.pressure)
+                                         : bend.pressure);
       turned = true;
    }
    return turned;
 }
 
-/// Of the bounds of the nodes that slip, with the sense of the slip: what does not go with p.
+/// The part of the bounds that does not go with p, of the nodes that slip, with the sense of
+/// their slip.
 VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
 {
    const Index n = problem_.nodes();
@@ -130,7 +131,7 @@ VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
 /// A body that nothing but its balance keeps from turning about the node where it touches: one
 /// more node is said to touch, and shows by what it bears whether the loads turn the body.
 /// False if that is not so.
-bool ExactPath::hold_pivot(std::vector<NodeState> states)
+bool ExactPath::place_pivot(std::vector<NodeState> states)
 {
    const Index n = problem_.nodes();
    const MatrixXd free = free_motions(problem_, states);
@@ -210,7 +211,7 @@ bool ExactPath::set_states(const ContactState &state)
    {
       if (rates_.choice[i] == Choice::any) { states[i] = NodeState::stick; }
    }
-   return equations_.set(states) || hold_pivot(std::move(states));
+   return equations_.set(states) || place_pivot(std::move(states));
 }
 
 /// Rates with which all nodes meet the laws: by Newton's steps from the present states, or from
@@ -241,7 +242,7 @@ bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
          if (rates_.choice[i] == Choice::any) { states[i] = NodeState::separation; }
       }
       found.solved =
-         hold_pivot(std::move(states)) && equations_.solve(rates_.b, found.x, found.F);
+         place_pivot(std::move(states)) && equations_.solve(rates_.b, found.x, found.F);
    }
    u_rate_ = std::move(found.x);
    F_rate_ = std::move(found.F);
@@ -295,7 +296,7 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
 }
 
 /// What a node has left of its state, in forces: of its gap if it is open, else of its friction
-/// in a sense of slip, or for none of its pressure. Of rates: how fast that changes.
+/// in a sense of slip, or for none of its pressure. rate(): how fast that changes.
 double ExactPath::left(Index i, double sense) const
 {
    const Index m = problem_.nodes() + i;
@@ -322,7 +323,7 @@ void ExactPath::for_each_boundary(Visitor visit) const
       {
       case Choice::any:
          break;
-      case Choice::held:
+      case Choice::stick:
          visit(i, 1);
          visit(i, -1);
          break;
@@ -441,7 +442,7 @@ double ExactPath::set_out(const ContactState &state, const PathWay &way)
    const VectorXd f_end = problem_.clamped_forces(way.multipliers);
    u_ = state.displacements();
    F_ = state.forces();
-   // Of the present forces: what they grow to later says nothing about gaps of now.
+   // The present forces count: those that they grow to later say nothing about gaps of now.
    const double present =
       std::max({state.peak_force, f.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff()});
    const VectorXd round_off = equations_.round_off(f, u_);

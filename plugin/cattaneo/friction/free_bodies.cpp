@@ -39,7 +39,7 @@ bool proves(const NonnegativeFit &fit, const MatrixXd &G)
    return slope * fit.x.sum() < 0.1 * fit.residual.squaredNorm();
 }
 
-/// Of each round cone the edge that points most along r, those that do so by more than
+/// The edge of each round cone that points most along r, of those that do so by more than
 /// `least`.
 MatrixXd edges_along(const MatrixXd &Z, const std::vector<FrictionBound> &bound,
                      const VectorXd &r, double least)
@@ -174,11 +174,11 @@ Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<Fricti
       symmetric_times(K, Z).cwiseAbs().maxCoeff() / K.diagonal().cwiseAbs().maxCoeff();
    if (!disc && r.norm() <= 100 * lack * g.norm()) { return mechanism; }
    mechanism.motion = Z * r;
-   // 4. Clamped forces hold the bodies, which go against this motion. What is held without
-   // pressure works against them, the loads do r·g = r² along it.
-   const double held = work_without_pressure(problem, bound, mechanism.motion);
+   // 4. Clamped forces hold the bodies, which go against this motion. Forces that need no
+   // pressure work against them, the loads do r·g = r² along it.
+   const double resisted = work_without_pressure(problem, bound, mechanism.motion);
    const double largest = mechanism.motion.cwiseAbs().maxCoeff();
-   if (r.squaredNorm() <= (1 + 1e-9) * held || largest <= negligible) { return mechanism; }
+   if (r.squaredNorm() <= (1 + 1e-9) * resisted || largest <= negligible) { return mechanism; }
    mechanism.exists = true;
    mechanism.motion /= largest;
    describe(mechanism, problem, fit.x);
@@ -217,7 +217,7 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
 namespace
 {
 
-/// A problem whose rigid motions are held by springs of one stiffness, which bear nothing at
+/// A problem whose rigid motions have springs of one stiffness, which bear nothing at
 /// the displacements `anchor`. Their forces there are one more load pattern.
 ReducedProblem with_springs(const ReducedProblem &problem, double spring,
                             const VectorXd &anchor)
@@ -267,15 +267,16 @@ Mechanism motion_of(const VectorXd &bears, const std::vector<NodeState> &states,
 
 /// Holds the rigid motions by weak springs, ever weaker ones, each fixed where the one before
 /// let the bodies go. Where the force that they bear stays the same a body moves on and on.
-/// Else what they hold is near an answer without them, or, where they bear nothing, is one (a
-/// pivot, balanced so that only round-off would decide which way it leans, stays where it is).
-HeldBySprings hold_by_springs(Increment &at)
+/// Else what they hold is close to an answer without them, or, where they bear nothing, is one
+/// (a pivot, balanced so that only round-off would decide which way it leans, stays where it
+/// is).
+OnSprings put_on_springs(Increment &at)
 {
    FrictionSystem &s = at.system;
    const ReducedProblem &problem = s.problem;
    const MatrixXd &Z = problem.rigid_motions;
-   HeldBySprings held;
-   if (Z.cols() == 0) { return held; }
+   OnSprings found;
+   if (Z.cols() == 0) { return found; }
    VectorXd own(Z.rows()), borne;
    own << problem.A().diagonal(), problem.C().diagonal();
    const double soft = own.minCoeff(), mean = own.mean();
@@ -295,9 +296,9 @@ HeldBySprings hold_by_springs(Increment &at)
       FrictionSystem sprung(
          std::make_shared<ReducedProblem>(with_springs(problem, spring, anchor)), s.settings);
       Increment of_sprung(sprung, begin, loads);
-      const bool found = find_end_if_held(of_sprung);
+      const bool solved = find_end_quickly(of_sprung);
       s.counters += sprung.counters;
-      if (!found)
+      if (!solved)
       {
          if (alike > 0) { break; }
          borne.resize(0);
@@ -305,28 +306,28 @@ HeldBySprings hold_by_springs(Increment &at)
       }
       // 2. The next springs are fixed where these have let the bodies go.
       ContactState &next = of_sprung.next;
-      if (!sprung.frictionless()) { of_sprung.name_states(next); }
+      if (!sprung.frictionless()) { of_sprung.fit_states(next); }
       const VectorXd moved = next.displacements() - anchor;
       const VectorXd bears = spring * Z * (Z.transpose() * moved);
       anchor += moved;
-      held.state = next;
-      held.state->multipliers = at.multipliers;
-      held.state->peak_force = at.reference;
+      found.state = next;
+      found.state->multipliers = at.multipliers;
+      found.state->peak_force = at.reference;
       // 3. Springs that bear nothing hold an answer.
       const double size = bears.cwiseAbs().maxCoeff();
-      held.bear_nothing = size <= s.settings.tolerance * at.reference;
-      if (held.bear_nothing) { break; }
+      found.bear_nothing = size <= s.settings.tolerance * at.reference;
+      if (found.bear_nothing) { break; }
       // 4. Those that bear the same again hold what moves on.
       const VectorXd before = std::exchange(borne, bears);
       const bool same = tell && before.size() > 0 && size > 1e-9 * at.reference &&
                         (bears - before).cwiseAbs().maxCoeff() <= 0.01 * size;
       alike = same ? alike + 1 : 0;
-      held.away = same ? motion_of(bears, next.status, problem.components()) : Mechanism{};
+      found.away = same ? motion_of(bears, next.status, problem.components()) : Mechanism{};
    }
    // What opens everywhere is for find_mechanism() to prove: a spring may hold a body before it
    // touches.
-   held.away.exists = !held.bear_nothing && alike > 1 && held.away.slides;
-   return held;
+   found.away.exists = !found.bear_nothing && alike > 1 && found.away.slides;
+   return found;
 }
 
 /// The steady rotation that the loads drive, which friction in the disc can hide from springs.
@@ -346,12 +347,12 @@ Mechanism find_spinning(Increment &at)
    {
       pattern.q -= Z * (Z.transpose() * pattern.q);
    }
-   FrictionSystem smooth(without, s.settings);
+   FrictionSystem frictionless(without, s.settings);
    const ContactState virgin = ContactState::virgin(problem);
-   Increment of_smooth(smooth, virgin, at.multipliers);
-   if (!find_end_if_held(of_smooth)) { return {}; }
+   Increment of_frictionless(frictionless, virgin, at.multipliers);
+   if (!find_end_quickly(of_frictionless)) { return {}; }
    // 2. With its pressures.
-   return find_spinning(problem, of_smooth.next.p, problem.clamped_forces(at.multipliers),
+   return find_spinning(problem, of_frictionless.next.p, problem.clamped_forces(at.multipliers),
                         s.settings.tolerance * at.reference);
 }
 
@@ -361,7 +362,7 @@ bool moves_away(Increment &at)
 {
    if (!at.springs)
    {
-      at.springs = hold_by_springs(at);
+      at.springs = put_on_springs(at);
       if (!at.springs->away.exists) { at.springs->away = find_spinning(at); }
    }
    at.cause.mechanism = at.springs->away;
@@ -371,8 +372,8 @@ bool moves_away(Increment &at)
 Search weak_springs(Increment &at)
 {
    if (moves_away(at) || !at.springs->state) { return Search::not_here; }
-   const ContactState &held = *at.springs->state;
-   at.take(at.system.frictionless() ? held.w : held.displacements(), held.status);
+   const ContactState &there = *at.springs->state;
+   at.move_to(at.system.frictionless() ? there.w : there.displacements(), there.status);
    if (newton(at)) { return Search::found; }
    return at.springs->bear_nothing ? Search::hopeless : Search::not_here;
 }
@@ -385,16 +386,16 @@ MatrixXd free_motions(const ReducedProblem &problem, const std::vector<NodeState
 {
    const MatrixXd &Z = problem.rigid_motions;
    const Index n = problem.nodes(), slips = problem.slips();
-   std::vector<Index> held;
+   std::vector<Index> resisting;
    for (Index i = 0; i < n && Z.cols() > 0; ++i)
    {
-      if (closed(states[i])) { held.push_back(slips + i); }
+      if (closed(states[i])) { resisting.push_back(slips + i); }
       for (Index row = i; states[i] == NodeState::stick && row < slips; row += n)
       {
-         held.push_back(row);
+         resisting.push_back(row);
       }
    }
-   return held.empty() ? MatrixXd(Z.rows(), 0) : at_rest(Z, Z(held, Eigen::all));
+   return resisting.empty() ? MatrixXd(Z.rows(), 0) : at_rest(Z, Z(resisting, Eigen::all));
 }
 
 namespace
@@ -403,7 +404,7 @@ namespace
 /// Moves a body that slips wherever it touches to where it has moved the least, by the length
 /// of the contact, that its states ask for, as where the last node that stuck let go. (Friction
 /// in the disc: not asked.)
-void take_least_motion(Increment &at)
+void move_least(Increment &at)
 {
    const FrictionSystem &s = at.system;
    if (s.c != 1) { return; }
@@ -437,14 +438,14 @@ void take_least_motion(Increment &at)
       if (!back) { return; }
       u += motions * *back;
    }
-   at.take(u, at.status);
+   at.move_to(u, at.status);
 }
 
 } // namespace
 
 bool ends_with_least_motion(Increment &at)
 {
-   take_least_motion(at);
+   move_least(at);
    return at.ends_here();
 }
 

@@ -99,8 +99,8 @@ bool runs_away(Increment &at)
 bool rests(Increment &at)
 {
    if (moves_away(at) || !at.springs->bear_nothing) { return false; }
-   const ContactState &held = *at.springs->state;
-   at.take(at.system.frictionless() ? held.w : held.displacements(), held.status);
+   const ContactState &there = *at.springs->state;
+   at.move_to(at.system.frictionless() ? there.w : there.displacements(), there.status);
    at.report = {};
    at.report.found_by = "rest";
    return ends_with_least_motion(at);
@@ -173,7 +173,7 @@ void explain_failure(Increment &at)
 
 } // namespace
 
-bool find_end_if_held(Increment &at)
+bool find_end_quickly(Increment &at)
 {
    return find_end(at, false);
 }
@@ -208,7 +208,7 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
       explain_failure(at);
       return report;
    }
-   if (!frictionless()) { at.name_states(at.next); }
+   if (!frictionless()) { at.fit_states(at.next); }
    state = std::move(at.next);
    const IncrementReport unique = uniqueness(state);
    report.status = unique.status;
@@ -217,8 +217,8 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
 }
 
 FrictionSolver::FrictionSolver(const ReducedProblem &problem, const FrictionSettings &settings)
-   : own_(std::make_shared<ReducedProblem>(problem)),
-     system_(std::make_unique<FrictionSystem>(own_, settings))
+   : copy_(std::make_shared<ReducedProblem>(problem)),
+     system_(std::make_unique<FrictionSystem>(copy_, settings))
 {
 }
 FrictionSolver::FrictionSolver(std::shared_ptr<const ReducedProblem> problem,
@@ -257,14 +257,14 @@ void FrictionSolver::set_gap(const VectorXd &gap)
    require(gap.size() == problem().nodes() && gap.allFinite(), "friction solver: a gap of ",
            gap.size(), " entries for ", problem().nodes(),
            " contact nodes, must be one finite number for each");
-   if (!own_)
+   if (!copy_)
    {
-      own_ = std::make_shared<ReducedProblem>(problem());
+      copy_ = std::make_shared<ReducedProblem>(problem());
       const Counters before = counters();
-      system_ = std::make_unique<FrictionSystem>(own_, system_->settings);
+      system_ = std::make_unique<FrictionSystem>(copy_, system_->settings);
       system_->counters += before;
    }
-   own_->gap = gap;
+   copy_->gap = gap;
 }
 bool FrictionSolver::frictionless() const
 {

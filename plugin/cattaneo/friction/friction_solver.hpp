@@ -125,7 +125,7 @@ public:
    const Counters &counters() const;
 
 private:
-   std::shared_ptr<ReducedProblem> own_; ///< none if it is shared
+   std::shared_ptr<ReducedProblem> copy_; ///< none if it is shared
    std::unique_ptr<FrictionSystem> system_;
 };
 

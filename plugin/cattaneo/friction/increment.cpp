@@ -40,7 +40,7 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
    reference = std::max(reference, F.cwiseAbs().maxCoeff());
    F += f;
    swept = {u, status};
-   take_pieces();
+   find_pieces();
    // What comes out depends on the state and the loads, not on increments before: a march that
    // is cut and resumed gives the same bits.
    for (auto *equations : {&s.equations.coupled, &s.equations.normal, &s.equations.tangential})
@@ -74,15 +74,15 @@ double Increment::round_off_along(const VectorXd &rows, Index i) const
    return most;
 }
 
-void Increment::take(const VectorXd &displacements, const std::vector<NodeState> &states)
+void Increment::move_to(const VectorXd &displacements, const std::vector<NodeState> &states)
 {
    u = displacements;
    F = f + system.product->times(u);
    status = states;
-   take_pieces();
+   find_pieces();
 }
 
-void Increment::take_pieces()
+void Increment::find_pieces()
 {
    if (!system.disc() && system.bends()) { piece = F.tail(system.n).cwiseMax(0.0); }
 }
@@ -123,7 +123,7 @@ ContactState Increment::end() const
    return next;
 }
 
-void Increment::name_states(ContactState &next) const
+void Increment::fit_states(ContactState &next) const
 {
    const double allowed = system.settings.tolerance * scale();
    const VectorXd slips = next.v - start.v;

@@ -48,7 +48,7 @@ public:
       const double N = static_cast<double>(s_.K.rows());
       operations_ += N * N * N + static_cast<double>(found.pivots + 1) * (8 * N * N + 1e4);
       if (!found.solved) { return false; }
-      at_.take(stuck_ + found.x, equations_.states());
+      at_.move_to(stuck_ + found.x, equations_.states());
       return polished(at_);
    }
    double operations() const { return operations_; }
@@ -106,7 +106,7 @@ Search lemke_from_afar(Increment &at)
       const double size = std::pow(10, -2 + 4.0 * k / most);
       VectorXd u = at.start.displacements();
       for (Index row = 0; row < u.size(); ++row) { u[row] += size * far[row] * some(); }
-      at.take(u, at.start.status);
+      at.move_to(u, at.start.status);
       std::vector<NodeState> states(s.n);
       for (Index i = 0; i < s.n; ++i) { states[i] = natural_state(at.node(i)); }
       // 2. A solution; from afar a free body that slides away looks like one: round-off hides

@@ -51,7 +51,7 @@ public:
    /// Largest less smallest.
    double displacement_range() const { return most_.displacement - least_.displacement; }
    /// Secant stiffness ΔF/Δd between the extremes, which F and d reach together unless another
-   /// load moves while this one is held there. NaN if this load did not vary, or not `whole`.
+   /// load moves while this one stays. NaN if this load did not vary, or not `whole`.
    double stiffness() const;
    /** Loss factor η = D/(2π U), with D = work() of a cycle and U = ½ (ΔF/2)(Δd/2) the largest
        energy of a spring of the secant stiffness that swings between the same extremes, thus

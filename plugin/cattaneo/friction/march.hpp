@@ -23,8 +23,8 @@ enum class Stepping
        there are recorded, whatever number of changes lies between. Pieces that one increment
        solves exactly take that one. Where rates have no answer, an increment is taken instead,
        to the next stop or to where a node closes first: counted, with the reason, in the
-       report. A state that is no equilibrium (an initial slip, an interference) is settled by
-       an increment first.
+       report. A state that is no equilibrium (an initial slip, an interference) is brought to
+      equilibrium by an increment first.
 
        With two tangential components there is no such path, and FrictionMethod::gauss_seidel
        knows none. Equal increments are taken, halved while contact advances by more than one
@@ -82,7 +82,7 @@ struct IncrementRecord
    double residual_tangential = 0; ///< see IncrementReport
    double round_off = 0;           ///< see IncrementReport
    /// The method that found it: one of IncrementReport's, or of the exact path ("event path",
-   /// and how its rates were found where not by Newton), or "held" where the loads stay.
+   /// and how its rates were found where not by Newton), or "unchanged" where the loads stay.
    const char *found_by = "";
    /// A march taken up from the state here goes on to the last bit. False amid an exact path:
    /// to round-off.
@@ -149,7 +149,7 @@ struct MarchReport
    int stalled = 0;             ///< increments that the solver did not finish, passed by others
    int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
    int steady_period = 0;       ///< 1 or 2
-   /// Of the loss by friction, with MarchSettings::loss_error.
+   /// The error of the loss by friction, with MarchSettings::loss_error.
    LossError loss_error;
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
    /// normal work, over the largest of them on the way, or a millionth of the elastic energy

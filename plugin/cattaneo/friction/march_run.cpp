@@ -80,7 +80,7 @@ MarchRun::MarchRun(FrictionSolver &solver, const LoadHistory &history, ContactSt
 {
 }
 
-/// Of the way from the start of the march to the end of the history.
+/// How much of the way from the start of the march to the end of the history is done.
 double MarchRun::share() const
 {
    return end_ > began_ ? std::min(1.0, (state_.time - began_) / (end_ - began_)) : 1.0;
@@ -170,7 +170,7 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
          continue;
       }
       reached = middle;
-      // So near to the limit few nodes hold everything, and forces lose digits: such a load is
+      // So close to the limit few nodes hold everything, and forces lose digits: such a load is
       // known to have an equilibrium, but that is not handed out.
       const IncrementReport &found = trial.increment;
       const double stated =
@@ -184,7 +184,7 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
 
 /// One increment towards `target`, a shorter one where contact would advance too far or the
 /// solver does not finish; `exact` ones are not cut.
-bool MarchRun::take_increment(double target, bool exact)
+bool MarchRun::step_by_increment(double target, bool exact)
 {
    const double whole = target - state_.time,
                 smallest = piece_.duration() / (exact ? 1 : piece_.steps()) *
@@ -273,9 +273,9 @@ double MarchRun::first_known(double from, double target)
    return from;
 }
 
-/// A path begins at the state, which an increment settles first if it is no equilibrium. False
-/// if it cannot be settled.
-bool MarchRun::settle()
+/// A path begins at the state, which an increment brings to equilibrium first if it is in
+/// none. False if that cannot be.
+bool MarchRun::start_path()
 {
    if (path_) { return true; }
    path_ = std::make_unique<NearPath>(near_);
@@ -351,7 +351,7 @@ bool MarchRun::equilibria_end()
 bool MarchRun::follow_path()
 {
    // 1. The path begins at an equilibrium.
-   bool settled = settle();
+   bool started = start_path();
    // Events without progress: nodes that change their states at the same load, one after the
    // other. More than there are nodes and states go round in a circle.
    const long patience = 4 * problem_.nodes() + 16;
@@ -360,38 +360,38 @@ bool MarchRun::follow_path()
    {
       if (!record_.within_row() && is_stopped()) { return false; }
       // 2. One event or stop after the other.
-      std::string reason = !settled ? "the state at the start is no equilibrium"
+      std::string reason = !started ? "the state at the start is no equilibrium"
                                     : "states change back and forth at one load";
       const double before = state_.time;
-      if (settled && halted < patience && path_step(reason))
+      if (started && halted < patience && path_step(reason))
       {
          halted = state_.time > before ? 0 : halted + 1;
          continue;
       }
       // 3. Where it does not go on the way to the stop may be round-off, …
       const double stop = piece_.end_of_step(state_.time);
-      if (stop - state_.time <= 1e-12 * piece_.duration() && hold(stop)) { continue; }
+      if (stop - state_.time <= 1e-12 * piece_.duration() && stay(stop)) { continue; }
       // 4. … or there may be no equilibrium beyond.
-      if (settled && equilibria_end()) { return false; }
+      if (started && equilibria_end()) { return false; }
       // 5. Else one increment is taken, to the stop or to where a node closes first.
-      if (!take_increment(first_closing(stop), false)) { return false; }
+      if (!step_by_increment(first_closing(stop), false)) { return false; }
       if (record_.report.fallbacks++ == 0) { record_.report.fallback_reason = reason; }
       halted = 0;
-      settled = true;
+      started = true;
    }
    return true;
 }
 
 /// Nothing happens to an equilibrium where the loads stay until a time: what slips goes on to
 /// when they move. False if the state is none with the loads there.
-bool MarchRun::hold(double target)
+bool MarchRun::stay(double target)
 {
    MarchStep same;
    same.state = state_;
    same.state.time = target;
    same.state.multipliers = piece_.multipliers(target);
    same.increment = solver_.judge(state_, same.state);
-   same.increment.found_by = "held";
+   same.increment.found_by = "unchanged";
    same.exact = true;
    if (!same.solved()) { return false; }
    accept(std::move(same));
@@ -401,7 +401,7 @@ bool MarchRun::hold(double target)
 bool MarchRun::march_piece()
 {
    // 1. Loads that stay.
-   if (piece_.loads().from == piece_.loads().to && hold(piece_.end())) { return true; }
+   if (piece_.loads().from == piece_.loads().to && stay(piece_.end())) { return true; }
    // 2. One increment where that is exact.
    const bool exact = exact_in_one();
    // 3. The path, from one change of state to the next.
@@ -410,7 +410,7 @@ bool MarchRun::march_piece()
    while (state_.time < piece_.end())
    {
       const double target = exact ? piece_.end() : piece_.end_of_step(state_.time);
-      if (is_stopped() || !take_increment(target, exact)) { return false; }
+      if (is_stopped() || !step_by_increment(target, exact)) { return false; }
    }
    return true;
 }

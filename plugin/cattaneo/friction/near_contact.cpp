@@ -65,8 +65,8 @@ bool FarFirst::leave(int eighths)
 {
    for (int step = static_cast<int>(steps_.size()); step < 8 - eighths; ++step)
    {
-      const auto own = rows_.begin() + begin_[step], end = rows_.begin() + begin_[step + 1];
-      const std::vector<Index> rows(own, end), after(end, rows_.end());
+      const auto first = rows_.begin() + begin_[step], end = rows_.begin() + begin_[step + 1];
+      const std::vector<Index> rows(first, end), after(end, rows_.end());
       MatrixXd K = K_(rows, rows);
       Step next;
       next.Y = K_(rows, after);
@@ -101,9 +101,9 @@ void FarFirst::condense(int eighths, VectorXd &loads) const
    for (int step = 0; step < 8 - eighths; ++step)
    {
       const Step &of = steps_[step];
-      auto own = loads.segment(begin_[step], of.Y.rows());
-      of.factor.solve_half(own);
-      loads.tail(of.Y.cols()).noalias() -= of.Y.transpose() * own;
+      auto gone = loads.segment(begin_[step], of.Y.rows());
+      of.factor.solve_half(gone);
+      loads.tail(of.Y.cols()).noalias() -= of.Y.transpose() * gone;
    }
 }
 
@@ -112,9 +112,9 @@ void FarFirst::locate(int eighths, VectorXd &u) const
    for (int step = 7 - eighths; step >= 0; --step)
    {
       const Step &of = steps_[step];
-      auto own = u.segment(begin_[step], of.Y.rows());
-      own.noalias() -= of.Y * u.tail(of.Y.cols());
-      of.factor.solve_other_half(own);
+      auto gone = u.segment(begin_[step], of.Y.rows());
+      gone.noalias() -= of.Y * u.tail(of.Y.cols());
+      of.factor.solve_other_half(gone);
    }
 }
 
@@ -171,7 +171,7 @@ NearContact::NearContact(const ReducedProblem &whole, const SymmetricProduct &ti
       part.patterns.push_back(
          {pattern.name, pattern.control, left.head(part.slips()), left.tail(part.nodes())});
    }
-   // Of the round-off. A name that no other pattern has.
+   // The pattern of round-off. A name that no other pattern has.
    std::string name = "round-off";
    for (const LoadPattern &pattern : whole.patterns) { name += pattern.name; }
    part.patterns.push_back(

@@ -22,7 +22,7 @@ StateEquations::StateEquations(const Eigen::Ref<const MatrixXd> &K,
                                std::vector<FrictionBound> bound)
    : K_(K), times_K_(K), bound_(std::move(bound)), n_(static_cast<Index>(bound_.size())),
      tangential_(K.rows() > n_), diagonal_(K.diagonal()), arithmetic_(K),
-     states_(n_, NodeState::stick), held_(n_, false), constant_(VectorXd::Zero(K.rows())),
+     states_(n_, NodeState::stick), pinned_(n_, false), constant_(VectorXd::Zero(K.rows())),
      slot_of_(K.rows(), -1), border_of_(K.rows(), -1)
 {
 }
@@ -34,7 +34,7 @@ const VectorXd &StateEquations::round_off(const VectorXd &b, const VectorXd &x) 
    return known_.rows;
 }
 
-NodeState StateEquations::smooth_contact(Index node, const VectorXd &x) const
+NodeState StateEquations::frictionless_contact(Index node, const VectorXd &x) const
 {
    if (!tangential_) { return NodeState::stick; }
    return x[node] >= 0 ? NodeState::forward_slip : NodeState::backward_slip;
@@ -44,7 +44,7 @@ template <class Visitor>
 void StateEquations::for_each_equation(Index node, Visitor visit) const
 {
    const NodeState state = states_[node];
-   if (tangential_ && state != NodeState::stick && !held_[node])
+   if (tangential_ && state != NodeState::stick && !pinned_[node])
    {
       const double way = sense(state);
       visit(Equation{node, normal_row(node), way * bound_[node].slope(0, way)});
@@ -243,26 +243,26 @@ bool StateEquations::adopt()
    return is_factored() || factor();
 }
 
-bool StateEquations::set(std::vector<NodeState> states, std::vector<bool> held)
+bool StateEquations::set(std::vector<NodeState> states, std::vector<bool> pinned)
 {
-   if (!anew_ && !bound_changed_ && states == states_ && held == held_) { return true; }
+   if (!anew_ && !bound_changed_ && states == states_ && pinned == pinned_) { return true; }
    bound_changed_ = false;
    states_.swap(states);
-   held_.swap(held);
+   pinned_.swap(pinned);
    if (adopt()) { return true; }
    states_.swap(states);
-   held_.swap(held);
+   pinned_.swap(pinned);
    adopt();
    return false;
 }
 
-bool StateEquations::set(Index node, NodeState state, bool held)
+bool StateEquations::set(Index node, NodeState state, bool pinned)
 {
    std::vector<NodeState> states = states_;
-   std::vector<bool> all_held = held_;
+   std::vector<bool> all_pinned = pinned_;
    states[node] = state;
-   all_held[node] = held;
-   return set(std::move(states), std::move(all_held));
+   all_pinned[node] = pinned;
+   return set(std::move(states), std::move(all_pinned));
 }
 
 bool StateEquations::set(const std::vector<NodeState> &states)

@@ -12,7 +12,7 @@ enum class Choice : signed char
 {
    any,      ///< x_n >= 0, p >= 0, one of them zero; in contact |q| <= f p and Coulomb's law
    open,     ///< separation
-   held,     ///< stick
+   stick,    ///< stays in stick
    forward,  ///< x_n = 0; x_t >= 0, q + f p >= 0, one of them zero: stick or forward slip
    backward, ///< x_n = 0; x_t <= 0, f p - q >= 0, one of them zero: stick or backward slip
    sliding   ///< x_n = 0, q = 0: contact without friction; the state says the sense only
@@ -25,8 +25,8 @@ struct ComplementarityProblem
 {
    Eigen::VectorXd b;
    std::vector<Choice> choice;
-   /// Of each node, may bend with the pressure and have intercepts; the equations have slopes
-   /// alone. Empty: the bounds of the equations.
+   /// Bounds of the nodes, which may bend with the pressure and have intercepts; the equations
+   /// have slopes alone. Empty: those of the equations.
    std::vector<FrictionBound> bounds;
 };
 

@@ -56,12 +56,12 @@ public:
    {
       return intercept(p, sense) + slope(p, sense) * p;
    }
-   /// Of that line: none in Coulomb's law.
+   /// The part of that line that does not go with p: none in Coulomb's law.
    double intercept(double p = 0, double sense = 0) const { return piece(p, sense).intercept; }
    double slope(double p = 0, double sense = 0) const { return piece(p, sense).slope; }
    /// The larger slope of both senses there.
    double steepness(double p) const { return std::max(slope(p, 1), slope(p, -1)); }
-   /// Of the bound itself, of which nothing is left in tension.
+   /// Derivative of the bound itself, of which nothing is left in tension.
    double derivative(double p, double sense = 0) const
    {
       return at(p, sense) > 0 ? slope(p, sense) : 0.0;
@@ -84,9 +84,9 @@ private:
    const FrictionLaw *law_ = nullptr;
 };
 
-/// Of node i of the problem, which must outlive it.
+/// The bound of node i of the problem, which must outlive it.
 FrictionBound friction_bound(const ReducedProblem &problem, Eigen::Index i);
-/// Of all nodes.
+/// The bounds of all nodes.
 std::vector<FrictionBound> friction_bounds(const ReducedProblem &problem);
 /// Those of Coulomb's law; with ReducedProblem::friction no law of a node is above its line.
 std::vector<FrictionBound> friction_bounds(const Eigen::VectorXd &coefficients);

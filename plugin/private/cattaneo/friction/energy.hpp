@@ -5,7 +5,7 @@
 namespace cattaneo
 {
 
-/// Of the forces of a load pattern in the displacements of a state.
+/// Work of the forces of a load pattern in the displacements of a state.
 double work(const LoadPattern &pattern, const ContactState &state);
 
 /** How each node (size n) rubs over an increment: the way |Δv| that it slips, and its nodal
@@ -20,7 +20,7 @@ Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
                 const ContactState &after);
 
 /** Frictional loss of each node (size n) over an increment: ½ (b₀ + b₁)|Δv| with the bounds, f
-    p of Coulomb's law, at the pressures of its rubbing(), exact for a linear path along which
+    p of Coulomb's law, at the pressures of its rubbing(), exact for a linear change along which
     the node is in contact and slips one way under a law that does not bend. Never negative. */
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
@@ -33,11 +33,12 @@ struct RubbingDerivative
    NodeVector q0, q1, slip, stiffness;
    double p0 = 0, p1 = 0, friction = 0;
 };
-/// Of a number with derivatives by way, p_from and p_to of the node.
+/// Derivatives of a number that has some by way, p_from and p_to of the node.
 RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const ContactState &before,
                                      const ContactState &after, Eigen::Index node,
                                      double by_way, double by_from, double by_to);
-/// Of the frictional_loss() of the node, whose rubbing() over the increment is given.
+/// Derivatives of the frictional_loss() of the node, whose rubbing() over the increment is
+/// given.
 RubbingDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
                                   const ContactState &after, const Rubbing &rub,
                                   Eigen::Index node);

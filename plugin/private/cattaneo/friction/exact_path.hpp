@@ -66,12 +66,12 @@ public:
 private:
    double set_out(const ContactState &state, const PathWay &way);
    void find_choices(const ContactState &state);
-   bool take_piece(Eigen::Index node, double pressure);
+   bool set_piece(Eigen::Index node, double pressure);
    bool find_pieces(const ContactState &state);
    bool turn_bends();
    Eigen::VectorXd intercepts(const std::vector<NodeState> &states) const;
    bool set_states(const ContactState &state);
-   bool hold_pivot(std::vector<NodeState> states);
+   bool place_pivot(std::vector<NodeState> states);
    bool release_pivot();
    bool search_rates(std::optional<ComplementarityReport> known);
    bool find_rates(const ContactState &state, const PathWay &way);

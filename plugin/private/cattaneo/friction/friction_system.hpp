@@ -17,7 +17,7 @@ constexpr double lost = 1e-6;
 // and above this it may hide what drives a body that slides.
 constexpr double may_hide_sliding = 1e-10;
 
-/// Of the contact, for each node: its weight, or one where these are not known.
+/// Lengths of the contact nodes: their weights, or ones where these are not known.
 Eigen::VectorXd node_lengths(const ReducedProblem &problem);
 
 struct FrictionSystem;
@@ -100,7 +100,7 @@ struct FrictionSystem
    std::vector<FrictionBound> lines_at(const VectorXd &p) const;
    /// The equations of all states at once.
    StateEquations &coupled_equations();
-   /// Of node i; of a law that bends the slope at a pressure.
+   /// Friction of node i; where its law bends the slope at a pressure.
    double friction(Index i, double p) const;
    /// The node whose friction at its pressure is the most above its critical value, closed if
    /// states are given; -1: no node.

@@ -8,10 +8,10 @@ namespace cattaneo
 {
 
 /// What weak springs on the rigid motions of free bodies came to.
-struct HeldBySprings
+struct OnSprings
 {
    Mechanism away; ///< a motion that no spring stops, or that friction hides from them
-   std::optional<ContactState> state; ///< with the weakest spring that held
+   std::optional<ContactState> state; ///< with the weakest spring that stopped the bodies
    bool bear_nothing = false;         ///< that spring bears nothing: the state is an answer
 };
 
@@ -54,7 +54,7 @@ struct Increment
    IncrementReport report;
    ContactState next; // the end that ends_here() judged last
    Cause cause;
-   std::optional<HeldBySprings> springs; // if asked, see moves_away()
+   std::optional<OnSprings> springs; // if asked, see moves_away()
 
    double scale() const { return reference > 0 ? reference : 1.0; }
    double gap(Index i) const { return u[system.m(i)] + system.problem.gap[i]; }
@@ -62,20 +62,20 @@ struct Increment
    NodeVector along(const VectorXd &x, Index i) const;
    NodeVector slip(Index i) const { return along(u, i) - along(start.v, i); }
    ContactNode node(Index i) const;
-   /// Of each row of F, see RoundOff.
+   /// Round-off of each row of F, see RoundOff.
    VectorXd round_off() const { return system.product->arithmetic.rows(u.cwiseAbs(), f); }
    /// What friction lets a node's rows leave of round-off: that of its own forces and of its
    /// bound.
    double round_off_along(const VectorXd &rows, Index i) const;
 
-   void take(const VectorXd &displacements, const std::vector<NodeState> &states);
-   /// Of bounds that bend, the pieces at the present pressures.
-   void take_pieces();
-   void go_back() { take(swept.u, swept.status); }
+   void move_to(const VectorXd &displacements, const std::vector<NodeState> &states);
+   /// The pieces at the present pressures, of bounds that bend.
+   void find_pieces();
+   void go_back() { move_to(swept.u, swept.status); }
    /// The state at the end, with exact zeros where the node states say zero.
    ContactState end() const;
    /// Gives the nodes of an accepted end states that fit how they slip and what they bear.
-   void name_states(ContactState &next) const;
+   void fit_states(ContactState &next) const;
    /// Is the state where it stands the end of the increment? By the equations and the laws as
    /// they are given (FrictionSystem::obeys_laws()), which is the only judgement of a state.
    bool ends_here();

@@ -62,7 +62,7 @@ private:
    void find_cut_off();
    void end_cycle();
    void end_row();
-   /// Of the step from the state to these multipliers and conjugates.
+   /// Work of the step from the state to these multipliers and conjugates.
    double external_work(const Eigen::VectorXd &multipliers,
                         const Eigen::VectorXd &conjugates) const;
 

@@ -50,18 +50,18 @@ public:
 
    /// To the end of the history, or as far as there are equilibria.
    MarchReport run();
-   /// Of what run() has marched.
+   /// The losses of what run() has marched.
    const Losses &losses() const { return record_.losses(); }
 
 private:
    // Each returns false where the march ends.
    bool march_pieces();
    bool march_piece();
-   bool hold(double target);
+   bool stay(double target);
    bool follow_path();
-   bool settle();
+   bool start_path();
    bool path_step(std::string &reason);
-   bool take_increment(double target, bool exact);
+   bool step_by_increment(double target, bool exact);
 
    void begin_cycle(bool first_piece);
    bool restart_without_clearance();

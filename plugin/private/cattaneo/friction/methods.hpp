@@ -14,7 +14,7 @@ enum class Search
    hopeless  ///< there is nothing to search for
 };
 
-/// One pass over all nodes, each solved exactly with the others held (thesis 3.5, appendix D).
+/// One pass over all nodes, each solved exactly with the others fixed (thesis 3.5, appendix D).
 void sweep(Increment &at);
 /// Sweeps until nothing changes.
 Search gauss_seidel(Increment &at);
@@ -42,8 +42,8 @@ Search active_set_in_the_disc(Increment &at);
 /// Two tangents: Newton's method on the natural map with a line search, from several starts.
 Search damped_newton(Increment &at);
 
-/// The methods of bodies that something holds, the quick ones.
-bool find_end_if_held(Increment &at);
+/// By the quick methods alone, which suffice where something holds the bodies.
+bool find_end_quickly(Increment &at);
 
 /// From what weak springs hold to an answer without them.
 Search weak_springs(Increment &at);

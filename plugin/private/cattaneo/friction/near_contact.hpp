@@ -22,7 +22,7 @@ public:
    /// Keeps a reference to the problem.
    explicit FarFirst(const ReducedProblem &problem);
 
-   /// Of the nodes, the nearest of which has rank 0.
+   /// Ranks of the nodes, the nearest of which has rank 0.
    const std::vector<Index> &rank() const { return rank_; }
    /// Nodes in the nearest eighths.
    Index nodes(int eighths) const { return (rank_size() * eighths + 7) / 8; }
@@ -38,11 +38,11 @@ public:
    Index before(int eighths) const { return begin_[8 - eighths]; }
    /// Stiffness of the rows that are left, in their order.
    Eigen::MatrixXd stiffness(int eighths) const;
-   /// Of loads on all rows, in their order: at the rows that are left what acts on these,
+   /// Loads on all rows, in their order, become: at the rows that are left what acts on these,
    /// before them what locate() needs.
    void condense(int eighths, Eigen::VectorXd &loads) const;
-   /// Of displacements at the rows that are left those before them, where the loads that were
-   /// condensed are (with the sign of b in K u = b).
+   /// Finds from displacements at the rows that are left those before them, where the loads
+   /// that were condensed are (with the sign of b in K u = b).
    void locate(int eighths, Eigen::VectorXd &u) const;
 
 private:
@@ -76,7 +76,7 @@ public:
    int eighths() const { return eighths_; }
    /// Number in the whole problem of a node.
    Index node(Index near) const { return nodes_[near]; }
-   /// Of the whole problem's multipliers.
+   /// The part's multipliers, from those of the whole problem.
    Eigen::VectorXd loads(const Eigen::VectorXd &multipliers) const;
    /// Makes up for what round-off leaves at a state. False, and nothing done, if nodes that are
    /// left out bear something there.
@@ -90,7 +90,7 @@ public:
    ContactState whole(const ContactState &before, const ContactState &part) const;
    /// Made with these settings when first asked for.
    FrictionSolver &solver(const FrictionSettings &settings);
-   /// Of the solver, if there is one.
+   /// Counters of the solver, if there is one.
    Counters counters() const { return solver_ ? solver_->counters() : Counters(); }
 
 private:
@@ -132,7 +132,7 @@ public:
    int touched(const ContactState &state, int eighths) const;
 
    const ReducedProblem &problem() const { return problem_; }
-   /// Of the near problems' solvers, and how many near problems were made.
+   /// Counters of the near problems' solvers, and how many near problems were made.
    Counters counters() const;
 
 private:

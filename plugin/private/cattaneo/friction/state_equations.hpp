@@ -19,7 +19,7 @@ namespace cattaneo
         stick:       x_t = 0, x_n = 0
         slip:        x_n = 0, q ± bound = 0
         separation:  q = 0,   p = 0
-        separation of a node that is held: x_t = 0, p = 0
+        separation of a pinned node:      x_t = 0, p = 0
 
     A stiffness of n rows for n nodes has no tangential unknowns (no friction anywhere).
 
@@ -48,15 +48,15 @@ public:
    /// Row of K of a node's normal entry; that of the tangential one is the node's number.
    Eigen::Index normal_row(Eigen::Index node) const { return tangential_ ? n_ + node : node; }
    /// In contact a node without friction, or without a tangential unknown, does not stick …
-   bool smooth(Eigen::Index node) const { return !tangential_ || bound_[node].none(); }
+   bool frictionless(Eigen::Index node) const { return !tangential_ || bound_[node].none(); }
    /// … and this is its state after the displacements x: the sense is of no consequence.
-   NodeState smooth_contact(Eigen::Index node, const Eigen::VectorXd &x) const;
+   NodeState frictionless_contact(Eigen::Index node, const Eigen::VectorXd &x) const;
    /// Changes the states of all nodes or of one. False if the equations would be singular: then
    /// nothing has changed.
    bool set(const std::vector<NodeState> &states);
-   bool set(Eigen::Index node, NodeState state, bool held = false);
+   bool set(Eigen::Index node, NodeState state, bool pinned = false);
    /// A node in separation that does not move along the contact.
-   bool held(Eigen::Index node) const { return held_[node]; }
+   bool pinned(Eigen::Index node) const { return pinned_[node]; }
 
    /// Lets what was factored or bordered before leave no trace, to the last bit, in what
    /// follows: the next set() keeps the factor only if it is that of its states.
@@ -96,7 +96,7 @@ public:
    long updates() const { return updates_; }
 
 private:
-   bool set(std::vector<NodeState> states, std::vector<bool> held);
+   bool set(std::vector<NodeState> states, std::vector<bool> pinned);
    /// Row of K of an equation and the row added to it with `factor`.
    struct Equation
    {
@@ -136,13 +136,13 @@ private:
    const bool tangential_;
    const Eigen::VectorXd diagonal_;
    const RoundOff arithmetic_;
-   /// Of the last call of round_off().
+   /// The last call of round_off().
    mutable struct
    {
       Eigen::VectorXd b, x, rows;
    } known_;
    std::vector<NodeState> states_;
-   std::vector<bool> held_;
+   std::vector<bool> pinned_;
    Eigen::VectorXd base_, base_forces_; // forces_again(): of a call before
    Eigen::VectorXd constant_; // of each row's equation, what of the bound does not go with p
 
