@@ -1,3 +1,5 @@
+#include <cattaneo/algebra/lapack.hpp>
+#include <cattaneo/algebra/one_thread.hpp>
 #include <cattaneo/algebra/round_off.hpp>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,26 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 static constexpr double eps = std::numeric_limits<double>::epsilon();
+
+namespace
+{
+
+/// S x, in the time that reading S takes.
+Eigen::VectorXf times(const Eigen::MatrixXf &S, const Eigen::VectorXf &x)
+{
+#ifdef CATTANEO_USE_LAPACK
+   Eigen::VectorXf y(x.size());
+   const int n = static_cast<int>(S.rows()), next = 1;
+   const float once = 1, nothing = 0;
+   const OneThread alone(OneThread::reads_once * n * n);
+   ssymv_("L", &n, &once, S.data(), &n, x.data(), &next, &nothing, y.data(), &next);
+   return y;
+#else
+   return S * x;
+#endif
+}
+
+} // namespace
 
 RoundOff::RoundOff(const Eigen::Ref<const MatrixXd> &K) : K_(K)
 {
@@ -48,7 +70,7 @@ VectorXd RoundOff::product(const VectorXd &size) const
    if (rows <= 2048 && norm_ > 0 && std::isfinite(most))
    {
       if (sizes_.size() == 0) { sizes_ = (K_.cwiseAbs() / norm_).cast<float>(); }
-      return norm_ * most * (sizes_ * (size / most).cast<float>()).cast<double>();
+      return norm_ * most * times(sizes_, (size / most).cast<float>()).cast<double>();
    }
    VectorXd sum = VectorXd::Zero(rows);
    for (Index j = 0; j < rows; ++j) // half of K is read

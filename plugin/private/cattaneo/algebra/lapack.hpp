@@ -22,6 +22,9 @@ extern "C"
    void dsymv_(const char *triangle, const int *n, const double *factor, const double *A,
                const int *stride, const double *x, const int *x_step, const double *keep,
                double *y, const int *y_step);
+   void ssymv_(const char *triangle, const int *n, const float *factor, const float *A,
+               const int *stride, const float *x, const int *x_step, const float *keep,
+               float *y, const int *y_step);
    void dgetrf_(const int *rows, const int *columns, double *A, const int *stride, int *pivots,
                 int *info);
    void dgetrs_(const char *transposed, const int *n, const int *columns, const double *A,
