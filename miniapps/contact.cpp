@@ -142,6 +142,7 @@ void contact(Study &study)
            joint.faces.size(), own.known_elements ? "" : " and a body that is a matrix");
    require(options.edges.empty() || (problem.nodes() > 0 && problem.friction.maxCoeff() > 0),
            "option edges needs friction: without it nothing is stuck");
+   history.about_axis = joint.formulation != Formulation::plane;
    history.bolts = own.bolted ? &*own.bolted : nullptr;
    history.begin(problem);
    history.check_times("edges", options.edges);

@@ -398,7 +398,9 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
       more);
    if (problem.nodes() == 0) { return; } // nothing can open or slip
    study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(), "peak pressure");
-   const std::vector<Zone> zones = cattaneo::zones(problem, state);
+   const std::vector<Zone> zones = about_axis
+                                      ? zones_to_axis(problem, cattaneo::zones(problem, state))
+                                      : cattaneo::zones(problem, state);
    const bool one_line = zones.back().chain == 0;
    const std::vector<std::string> names = interfaces(problem);
    ResultTable &table =
@@ -458,6 +460,25 @@ void OwnHistory::report_march(const ReducedProblem &problem)
    study_.results["advance_error_estimate"] = report.advance_error;
    study_.results["largest_residual"] = report.largest_residual;
    report_exact_path(study_, problem, settings, report);
+}
+
+std::vector<Zone> zones_to_axis(const ReducedProblem &problem, std::vector<Zone> zones)
+{
+   for (Zone &zone : zones)
+   {
+      const ContactChain &chain = problem.chains[zone.chain];
+      for (const int end : {0, 1})
+      {
+         const Eigen::Index last = end ? chain.first + chain.nodes - 1 : chain.first;
+         // On a plane of symmetry the node is there, and held.
+         const bool at_axis = (end ? zone.last : zone.first) == last &&
+                              chain.ends[end] == LineEnd::symmetry &&
+                              std::count(problem.held.begin(), problem.held.end(), last) == 0;
+         if (!at_axis) { continue; }
+         (end ? zone.to : zone.from).position += (end ? 1 : -1) * problem.position(last, 0);
+      }
+   }
+   return zones;
 }
 
 void report_critical_friction(Study &study, const ReducedProblem &problem)

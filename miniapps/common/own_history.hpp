@@ -40,6 +40,8 @@ public:
    /// Of the march: cycles, losses, residuals, the changes of an exact path.
    void report_march(const cattaneo::ReducedProblem &problem);
 
+   /// Is the problem one about an axis? Zones at the axis begin there.
+   bool about_axis = false;
    /// Bolts that the history tightens; must outlive it. Null: there are none.
    const cattaneo::BoltedJoint *bolts = nullptr;
    cattaneo::MarchSettings settings;
@@ -55,6 +57,11 @@ private:
    std::vector<double> wanted_; ///< times of frames, in their order
    cattaneo::LoadHistory history_;
 };
+
+/// Zones that begin or end at the axis of a problem about one, whose node there is none of the
+/// contact, with their ends there.
+std::vector<cattaneo::Zone> zones_to_axis(const cattaneo::ReducedProblem &problem,
+                                          std::vector<cattaneo::Zone> zones);
 
 /// The coefficients of friction at which the contact changes its character.
 void report_critical_friction(Study &study, const cattaneo::ReducedProblem &problem);

@@ -1,5 +1,7 @@
 #include "contact/joint_report.hpp"
 
+#include "common/own_history.hpp"
+
 #include <algorithm>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
@@ -219,7 +221,11 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
                                   {"free_surface", faces_nothing ? "face nothing" : ""},
                                   {"arm"}});
    std::vector<Zone> all_zones;
-   if (reduction_.problem.nodes() > 0) { all_zones = zones(reduction_.problem, state); }
+   if (reduction_.problem.nodes() > 0)
+   {
+      all_zones = zones(reduction_.problem, state);
+      if (!plane) { all_zones = zones_to_axis(reduction_.problem, all_zones); }
+   }
    const CycleRecord *cycle = march.cycles.empty() ? nullptr : &march.cycles.back();
    for (const InterfaceReport &face : reduction_.interfaces)
    {

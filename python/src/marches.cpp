@@ -120,8 +120,16 @@ March march_with_bolts(const BoltedJoint &self, const History &history,
    const Marcher marcher = [&self](const LoadHistory &loads, ContactState &at,
                                    const MarchSettings &how, const MarchObserver &each)
    { return self.march(loads, at, how, each); };
-   return march_by(marcher, nb::cast<const ReducedProblem &>(problem), history, state, settings,
-                   keep_states, observer, progress, stop, members);
+   March march = march_by(marcher, nb::cast<const ReducedProblem &>(problem), history, state,
+                          settings, keep_states, observer, progress, stop, members);
+   // Nobody asked for a march to stop where a bolt would push.
+   const MarchReport &report = march.report;
+   if (report.status == FrictionStatus::stopped &&
+       report.message.find("push") < std::string::npos)
+   {
+      warn("march: " + report.message + ", at time " + exact_text(report.event_time));
+   }
+   return march;
 }
 
 std::string brief(const March &self)

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from joints_test import slit_block
 from programs import alike, body, changed, even, face, near, near_all, rectangle, shipped
 
 
@@ -379,3 +380,78 @@ def test_zones_have_places(run):
             x, y = zone[end + "_x"], zone[end + "_y"]
             near(abs(x), abs(zone[end] - 0.6), 1e-4)
             near(y, 50 - math.sqrt(50 * 50 - x * x), 1e-5)
+
+
+def press_fit(run):
+    """A sleeve of radii 0.5 and 1 in a hub of 1 and 2, both 2 long, an interference of 1e-3, E = 1000, ν = 0, f = 0.2; the hub's bottom
+    is held. With Lamé's pressure."""
+    run.block("sleeve.mesh", 0.5, 1, 4, 0, 2, 16)
+    run.block("hub.mesh", 1, 2, 6, 0, 2, 16)
+    lame = 1e-3 * 1000 / ((4 + 1) / (4 - 1) + (1 + 0.25) / (1 - 0.25))
+    return {"analysis": "axisymmetric", "bodies": {"sleeve": body("sleeve.mesh"), "hub": body("hub.mesh", "1:z")},
+            "interfaces": {"fit": {**face("sleeve:2", "hub:4", 0.2), "gap": -1e-3}}}, lame
+
+
+def test_a_press_fit_is_pushed_out(run):
+    """Lamé's pressure, and all of the fit slides under f p 2π R L: what the shear does to the pressure at the ends is 1 % of it."""
+    case, lame = press_fit(run)
+    case["bodies"]["sleeve"]["load"] = f"Z traction 3 0 {-1 / (math.pi * 0.75)!r}"
+    fitted = run.case({**case, "history": ["Z=0", "Z=1e-6"]})
+    near(fitted["peak_pressure"], lame, 1e-5 * lame)
+    near(fitted.interface("fit")["normal"], 2 * math.pi * 2 * lame, 1e-5 * 2 * math.pi * 2 * lame)
+    most = 0.2 * 2 * math.pi * 2 * lame
+    slid = run.case({**case, "history": ["Z=0", f"Z={1.5 * most!r}"]}, code=2)
+    assert slid["status"] == "gross sliding"
+    near(slid["event_loads"]["Z"], most, 0.01 * most)
+    near(slid.interface("fit")["force_y"], slid["loads"]["Z"], 1e-9)
+    held = next(row for row in slid["reactions"] if row["body"] == "hub")
+    near(held["force_y"], slid["loads"]["Z"], 1e-9)
+
+
+def test_a_press_fit_is_turned(run):
+    """The turn changes no pressure: all of the fit slides under f p 2π R² L."""
+    case, lame = press_fit(run)
+    case["bodies"]["hub"]["support"] = "1:zt"
+    case["bodies"]["sleeve"]["support"] = "1:z"
+    case["bodies"]["sleeve"]["load"] = f"T traction-t 3 {1 / (math.pi / 2 * (1 - 0.5**4))!r}*r"
+    most = 0.2 * 2 * math.pi * 2 * lame
+    holds = run.case({**case, "history": ["T=0", f"T={0.99 * most!r}"]})
+    near(holds.interface("fit")["torque"], -0.99 * most, 1e-8)
+    near(holds["peak_pressure"], lame, 1e-5 * lame)
+    assert run.case({**case, "history": ["T=0", f"T={1.01 * most!r}"]}, code=2)["status"] == "gross sliding"
+
+
+def test_a_crack_under_compression(run):
+    """Its lips bear the pressure p, and slip as those without friction under the shear less f p."""
+    run.write("slit.mesh", slit_block())
+
+    def slips(friction, shear):
+        load = ["P pressure 1,3 1.3", *(f"Q traction {part}" for part in ("3 1 0", "1 -1 0", "2 0 1", "4 0 -1"))]
+        got = run.case({"history": ["P=0", "P=1", f"Q={shear!r}"], "bodies": {"block": body("slit.mesh", "@0,0:xy @4,0:y", load, 1000, 0.3)},
+                        "interfaces": {"slit": face("block:6", "block:5", friction)}}, "--csv", run.folder / "slit")
+        assert got["status"] == "converged"
+        near_all(run.columns("slit_nodes.csv")["p"], 1.3, 1e-9)
+        return run.columns("slit_nodes.csv")["slip"]
+
+    rough, smooth = slips(0.3, 0.5), slips(0, 0.5 - 0.3 * 1.3)
+    assert max(map(abs, smooth)) > 1e-4
+    alike(rough, smooth, 1e-9 * max(map(abs, smooth)))
+    near_all(slips(0.3, 0.38), 0, 1e-12)
+
+
+def test_zones_of_a_disc_begin_at_the_axis(run):
+    """The node on the axis is none of the contact, and its zone begins there all the same: stick over all of the radius."""
+    run.block("disc.mesh", 0, 2, 5, 0, 1, 2)
+    for order in (1, 2):
+        got = run.case({"analysis": "axisymmetric", "order": order, "bodies": {"disc": body("disc.mesh", "4:r", ["P pressure 3 1"])},
+                        "interfaces": {"floor": {"between": ["disc:1"], "friction": 0.3}}, "history": ["P=0", "P=1"]})
+        (zone,) = got["zones"]
+        near(abs(zone["to"] - zone["from"]), 2, 1e-12)
+        near(min(abs(zone["from_x"]), abs(zone["to_x"])), 0, 1e-12)
+        near(got.interface("floor")["stick"], 2, 1e-12)
+    # A cylinder that is half of one: its plane of symmetry is no axis.
+    run.block("shaft.mesh", 1, 2, 4, 0, 1, 4)
+    run.block("hub.mesh", 2, 3, 4, 0, 1, 6)
+    got = run.case({"analysis": "axisymmetric", "bodies": {"shaft": body("shaft.mesh", "1:z"), "hub": body("hub.mesh", "1:z", ["P pressure 2 1"])},
+                    "interfaces": {"fit": face("shaft:2", "hub:4")}, "history": ["P=0", "P=1"]})
+    near(sum(zone["to"] - zone["from"] for zone in got["zones"]), 1, 1e-9)

@@ -34,7 +34,8 @@ std::string history_header(const ReducedProblem &problem)
    return "time,cycle" + loads +
           (has_disc(problem) ? ",stick,separation,slip"
                              : ",stick,separation,forward_slip,backward_slip") +
-          ",dissipation,external_work,residual_normal,residual_tangential,round_off" +
+          ",dissipation,total_dissipation,external_work,residual_normal,residual_tangential,"
+          "round_off" +
           conjugates;
 }
 
@@ -43,7 +44,8 @@ Eigen::Index count_patterns(const ReducedProblem &problem)
    return static_cast<Eigen::Index>(problem.patterns.size());
 }
 
-std::string history_row(const IncrementRecord &record, Eigen::Index patterns, bool disc)
+std::string history_row(const IncrementRecord &record, double lost, Eigen::Index patterns,
+                        bool disc)
 {
    require(record.multipliers.size() == patterns && record.conjugates.size() == patterns,
            "history table: a record has ", record.multipliers.size(),
@@ -55,7 +57,7 @@ std::string history_row(const IncrementRecord &record, Eigen::Index patterns, bo
    out << ',' << record.stick << ',' << record.separation << ',';
    if (disc) { out << record.slip; }
    else { out << record.forward_slip << ',' << record.backward_slip; }
-   out << ',' << record.dissipation << ',' << record.external_work << ','
+   out << ',' << record.dissipation << ',' << lost << ',' << record.external_work << ','
        << record.residual_normal << ',' << record.residual_tangential << ','
        << record.round_off;
    for (double conjugate : record.conjugates) { out << ',' << conjugate; }
@@ -97,9 +99,9 @@ HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &prob
 {
 }
 
-void HistoryWriter::add(const ContactState &, const IncrementRecord &record)
+void HistoryWriter::add(const ContactState &state, const IncrementRecord &record)
 {
-   file_.add(history_row(record, patterns_, disc_));
+   file_.add(history_row(record, state.dissipation, patterns_, disc_));
 }
 
 namespace
