@@ -74,9 +74,11 @@ public:
    const std::vector<Named> &held() const { return named_; }
    const Sum &contact() const { return contact_; }
    bool known() const { return held_.K.size() > 0; }
-   /// All of them over the largest; NaN: nothing acts.
+   /// All of them over the largest; NaN: nothing acts, or what supports bear is only known as
+   /// what is left over.
    double imbalance() const
    {
+      if (held_.supports_left_out) { return none; }
       Sum all = loaded_;
       all.add(contact_);
       double largest = std::max(contact_largest_, loaded_largest_), reach = 0;

@@ -371,6 +371,16 @@ def test_every_body_of_shipped_cases_balances(run, name):
         assert row["imbalance"] < 1e-9, got["balance"]
 
 
+def test_a_matrix_balances_where_its_supports_are_known(run):
+    """The upper lap has all of its rows; what holds the lower one was left out of the matrix: it bears what is left over."""
+    got = run("contact", "--case", "meshes/calculix/laps.json")
+    balance = {row["body"]: row["imbalance"] for row in got["balance"]}
+    assert balance["upper"] < 1e-9 and balance["lower"] is None
+    left = next(row for row in got["reactions"] if row["name"] == "left out of the matrix")
+    near(left["force_y"], got["contact_force"][1], 1e-9)
+    near(left["force_x"], got["contact_force"][0], 1e-9)
+
+
 def test_zones_have_places(run):
     """The ends of zones lie on the side, as far along it as their arc length says."""
     case = shipped("fretting_pad")
