@@ -629,6 +629,123 @@ TEST_F(Interfaces, OfPairedNodesKnowNoFirstBody)
    }
 }
 
+/// Bodies by hand, held, with nodes of which those of the one are stiff where those of the
+/// other are soft: springs in series, (S1⁻¹ + S2⁻¹)⁻¹, with twice as many digits. Whichever of
+/// two nodes depends on the other, it must be the softer one, node by node.
+TEST_F(Interfaces, OfNodesThatAreSofterInTurnsLoseNoDigits)
+{
+   using Exact = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+   const int elements = 7, n = elements + 1;
+   const auto body = [&](const Vector2d &from, const Vector2d &to, double left, double right)
+   {
+      CondensedBody made;
+      made.line = side(from, to, elements);
+      for (int k = 0; k < n; ++k) { made.line.nodes[k].dofs = {2 * k, 2 * k + 1}; }
+      MatrixXd random(2 * n, 2 * n);
+      for (double &x : random.reshaped()) { x = random_number(); }
+      const VectorXd own = VectorXd::NullaryExpr(
+         2 * n, [&](Index row)
+         { return std::sqrt(made.line.nodes[row % n].position[0] < 1 ? left : right); });
+      made.S = own.asDiagonal() *
+               (random * random.transpose() + MatrixXd::Identity(2 * n, 2 * n)) *
+               own.asDiagonal();
+      made.S = (0.5 * (made.S + made.S.transpose())).eval();
+      made.free_motions = MatrixXd::Zero(2 * n, 0);
+      made.H = MatrixXd::Zero(0, 0);
+      return made;
+   };
+   const CondensedBody upper = body({0, 0}, {2, 0}, 1e8, 1e-3),
+                       lower = body({2, 0}, {0, 0}, 1e-4, 1e6);
+   std::vector<int> turned; // rows of the lower one in the order of the upper one
+   for (int row = 0; row < 2 * n; ++row) { turned.push_back(row - row % n + n - 1 - row % n); }
+   const Exact S1 = upper.S.cast<long double>(),
+               S2 = lower.S(turned, turned).cast<long double>(),
+               S = (S1.inverse() + S2.inverse()).inverse();
+   const MatrixXd K = S.cast<double>();
+   const VectorXd own = K.diagonal().cwiseSqrt().cwiseInverse();
+   const auto off = [&](const MatrixXd &found)
+   { return (own.asDiagonal() * (found - K) * own.asDiagonal()).cwiseAbs().maxCoeff(); };
+   const MatrixXd first = reduce(upper, lower, pair_lines(upper.line, lower.line)).problem.K,
+                  second = reduce(lower, upper, pair_lines(lower.line, upper.line)).problem.K;
+   EXPECT_LT(off(first), 1e-12);
+   EXPECT_LT(off(second(turned, turned)), 1e-12);
+   // As rows of a mortar, too.
+   const std::vector<Interface> face{between(0, upper.line, 1, lower.line, SlaveSide::second)};
+   EXPECT_LT(off(reduce({upper, lower}, face).problem.K(turned, turned)), 1e-12);
+}
+
+/// A body and its image in the contact line: tangential and normal displacements do not feel
+/// each other, to the last bit, whichever is named first and whether one is held or both.
+TEST_F(Interfaces, OfImagesAreExactlyUncoupled)
+{
+   const auto face = [](double up)
+   {
+      return side(up > 0 ? Vector2d(0, 0) : Vector2d(2, 0),
+                  up > 0 ? Vector2d(2, 0) : Vector2d(0, 0), 6, 2);
+   };
+   Truss upper({face(1)}, {1, 1}), lower({face(-1)}, {1, -1});
+   // The image of each point, and of each dof.
+   std::vector<int> image(upper.size());
+   for (std::size_t p = 0; p < upper.points.size(); ++p)
+   {
+      const bool on_line = p < upper.points.size() - 5;
+      const std::size_t q = on_line ? upper.points.size() - 6 - p : p;
+      lower.points[q] = {upper.points[p][0], -upper.points[p][1]};
+      image[2 * p] = static_cast<int>(2 * q);
+      image[2 * p + 1] = static_cast<int>(2 * q + 1);
+   }
+   for (int i = 0; i < upper.size(); ++i)
+   {
+      for (int j = 0; j < upper.size(); ++j)
+      {
+         const double sign = i % 2 == j % 2 ? 1 : -1;
+         lower.K(image[i], image[j]) = sign * upper.K(i, j);
+      }
+   }
+   for (int held : {0, 1, 2})
+   {
+      Truss a = upper, b = lower;
+      if (held > 0) { b.hold(); }
+      if (held > 1) { a.hold(); }
+      const CondensedBody one = a.condensed(), other = b.condensed();
+      const Index n = one.line.size();
+      EXPECT_GT(one.S.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(),
+                1e-3 * one.S.cwiseAbs().maxCoeff()); // either is coupled
+      for (const bool turned : {false, true})
+      {
+         const Reduction both =
+            turned ? reduce({other, one}, {between(0, other.line, 1, one.line)})
+                   : reduce({one, other}, {between(0, one.line, 1, other.line)});
+         EXPECT_FALSE(both.problem.coupled) << held << turned;
+         EXPECT_TRUE(both.problem.B().isZero(0)) << held << turned;
+         both.problem.validate();
+      }
+   }
+}
+
+/// Two free bodies with nodes one to one across a gap turn together at no cost, which must not
+/// make them slip, and there is nothing else that they have in common with relative motions.
+TEST_F(Interfaces, OfFreeBodiesThatMatchAcrossAGapDoNotSlipAsTheyTurn)
+{
+   Truss above(
+      {line_along(circle({0, 1}, 1), uniform_grid(-M_PI / 2 - 0.3, -M_PI / 2 + 0.3, 4), 2)},
+      {0, 1}),
+      below(
+         {line_along(circle({0, -1}, 1), uniform_grid(M_PI / 2 - 0.3, M_PI / 2 + 0.3, 4), 2)},
+         {0, -1});
+   const CondensedBody one = above.condensed(), other = below.condensed();
+   const Reduction both = reduce(one, other, pair_lines(one.line, other.line, 0.2));
+   const ReducedProblem &problem = both.problem;
+   problem.validate();
+   ASSERT_GT(problem.gap.maxCoeff(), 0.05);
+   const MatrixXd &Z = problem.rigid_motions;
+   EXPECT_EQ(Z.cols(), 3);
+   EXPECT_LT((problem.K * Z).cwiseAbs().maxCoeff(), 1e-13 * problem.K.cwiseAbs().maxCoeff());
+   const MatrixXd rest = problem.K + Z * Z.transpose() * problem.K.trace();
+   EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(rest).eigenvalues()[0],
+             1e-4 * problem.K.trace() / static_cast<double>(problem.K.rows()));
+}
+
 /// Free bodies: what moves all of them together is at rest, loads in balance are carried, and
 /// others are refused. A gap between curved sides turns nothing into slip.
 TEST_F(Interfaces, OfFreeBodiesKnowTheirCommonMotions)

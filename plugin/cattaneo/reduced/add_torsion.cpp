@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/reduced/bodies_union.hpp>
+#include <cattaneo/reduced/union.hpp>
 
 namespace cattaneo
 {
@@ -12,15 +12,20 @@ namespace
 /// their radial ones, which are odd in r as well, without regard to frames.
 UnionRows twisting_rows(UnionRows rows, const std::vector<CondensedBody> &twisting)
 {
+   for (ContactRow &row : rows.rows) { row.slides = true; }
+   choose_dependents(twisting, rows.rows);
    for (ContactRow &row : rows.rows)
    {
-      const CondensedBody &body = twisting[row.body];
-      require(!std::binary_search(body.held.begin(), body.held.end(), row.node),
-              "add torsion: the contact node at ", body.line.nodes[row.node].position, " of ",
-              called(twisting, row.body),
+      const auto &[b, node] = row.dependent[0];
+      if (!holds(twisting[b], node, 0)) { continue; }
+      // Nothing faces the node, or one alone that is held as well.
+      row.slides = false;
+      const NodeOfBody *other = row.partner();
+      require(other ? holds(twisting[other->first], other->second, 0) : row.shares.size() == 1,
+              "add torsion: the contact node at ", twisting[b].line.nodes[node].position,
+              " of ", called(twisting, b),
               " is held around the axis: the contact line must end before it, or the other "
               "side be the slave");
-      row.slides = true;
    }
    return rows;
 }
@@ -64,21 +69,10 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
    const Eigen::Index before = problem.H.rows();
    torsion_pattern_ = join(twisting, problem.patterns);
    const auto count = static_cast<Eigen::Index>(problem.patterns.size());
-   Block block;
-   if (rows_)
-   {
-      ++counters.unions;
-      block =
-         united(twisting, twisting_rows(*rows_, twisting), torsion_pattern_, problem.patterns);
-      torsion_union_ = block.way_back;
-   }
-   else if (twisting.size() == 1) { block = alone(twisting[0], torsion_pattern_[0], count); }
-   else
-   {
-      ++counters.unions;
-      block = united(twisting[0], twisting[1], partner_, torsion_pattern_, problem.patterns);
-      torsion_union_ = block.way_back;
-   }
+   counters.unions += twisting.size() > 1;
+   const Block block =
+      united(twisting, twisting_rows(*rows_, twisting), torsion_pattern_, problem.patterns);
+   torsion_union_ = block.way_back;
    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * n, 3 * n);
    K.topLeftCorner(n, n) = problem.A();
    K.block(n, n, n, n) = block.S;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/reduced/bodies_union.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
+#include <cattaneo/reduced/union.hpp>
 #include <limits>
 #include <optional>
 #include <sstream>

@@ -14,21 +14,21 @@ namespace
 {
 
 /// Contact nodes by whether their interface is tied.
-void sort_out(const std::vector<InterfaceRows> &facings, UnionRows &rows)
+void sort_out(const std::vector<MetInterface> &met, UnionRows &rows)
 {
    int row = 0;
-   for (const InterfaceRows &facing : facings)
+   for (const MetInterface &interface : met)
    {
-      for (Index i = 0; i < facing.nodes(); ++i)
+      for (Index i = 0; i < interface.nodes(); ++i)
       {
-         (facing.tied() ? rows.tied : rows.free).push_back(row++);
+         (interface.given->tied ? rows.tied : rows.free).push_back(row++);
       }
    }
 }
 
 /// Numbers of the bodies that interfaces join, without those that touch an obstacle.
 std::vector<std::vector<int>> groups_of(std::size_t bodies,
-                                        const std::vector<InterfaceRows> &facings)
+                                        const std::vector<MetInterface> &met)
 {
    std::vector<int> group(bodies);
    std::iota(group.begin(), group.end(), 0);
@@ -37,18 +37,18 @@ std::vector<std::vector<int>> groups_of(std::size_t bodies,
       const int from = group[a], to = group[b];
       std::replace(group.begin(), group.end(), from, to);
    };
-   for (const InterfaceRows &facing : facings)
+   for (const MetInterface &interface : met)
    {
-      if (facing.master().body >= 0) { join(facing.slave().body, facing.master().body); }
+      if (interface.master.body >= 0) { join(interface.slave.body, interface.master.body); }
    }
    std::map<int, std::vector<int>> members;
    for (std::size_t b = 0; b < bodies; ++b)
    {
       members[group[b]].push_back(static_cast<int>(b));
    }
-   for (const InterfaceRows &facing : facings)
+   for (const MetInterface &interface : met)
    {
-      if (facing.master().body < 0) { members.erase(group[facing.slave().body]); }
+      if (interface.master.body < 0) { members.erase(group[interface.slave.body]); }
    }
    std::vector<std::vector<int>> result;
    for (auto &[number, list] : members) { result.push_back(std::move(list)); }
@@ -62,76 +62,78 @@ void require_some(const std::vector<CondensedBody> &bodies,
            interfaces.size(), " interfaces, must be at least one of each");
 }
 
-} // namespace
-
-Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces)
+/// The interface of two bodies whose whole lines match, node by node, as a pairing.
+std::vector<Interface> paired_if_matching(const std::vector<CondensedBody> &bodies,
+                                          std::vector<Interface> interfaces)
 {
-   require_some(bodies, interfaces);
-   // What has formulas of its own.
-   const Interface &one = interfaces.front();
+   Interface &one = interfaces.front();
    const auto is_all = [&](const InterfaceSide &side, int b)
    {
       const ContactLine &line = bodies[b].line;
-      std::vector<int> numbers(line.size());
-      std::iota(numbers.begin(), numbers.end(), 0);
-      return side.body == b && clamped_ends(bodies[b], line, numbers).empty() &&
-             side.line.size() == line.size() &&
+      return side.body == b && side.line.size() == line.size() &&
              std::equal(line.nodes.begin(), line.nodes.end(), side.line.nodes.begin(),
                         [](const LineNode &i, const LineNode &j) { return i.dofs == j.dofs; });
    };
-   const auto named = [&](Reduction reduction)
+   if (bodies.size() == 2 && interfaces.size() == 1 && !one.tied && !one.pairing &&
+       one.slave != SlaveSide::second && is_all(one.first, 0) && is_all(one.second, 1))
    {
-      for (ContactChain &chain : reduction.problem.chains) { chain.interface = one.name; }
-      reduction.interfaces[0].name = one.name;
-      return reduction;
-   };
-   if (interfaces.size() == 1 && !one.tied && is_all(one.first, 0))
-   {
-      if (bodies.size() == 1 && one.second.body < 0)
-      {
-         return named(reduce(std::move(bodies[0]), one.gap.value_or(0.0)));
-      }
-      if (bodies.size() == 2 && (one.pairing || one.slave != SlaveSide::second) &&
-          is_all(one.second, 1))
-      {
-         if (auto pairing =
-                one.pairing ? one.pairing : matching_nodes(bodies[0].line, bodies[1].line))
-         {
-            Reduction made =
-               named(reduce(std::move(bodies[0]), std::move(bodies[1]), *pairing));
-            if (!one.gap) { return made; }
-            // Said of the nodes, whatever the geometry is.
-            for (Index i = 0; i < made.problem.nodes(); ++i)
-            {
-               const Vector2d x = made.problem.position.row(i);
-               made.problem.gap[i] = (*one.gap)(x[0], x[1]);
-            }
-            made.interfaces[0].chords.setZero();
-            made.interfaces[0].curved.setZero();
-            return made;
-         }
-      }
+      one.pairing = matching_nodes(bodies[0].line, bodies[1].line);
    }
-   return reduce_by_rows(std::move(bodies), interfaces);
+   return interfaces;
 }
 
-Reduction reduce_by_rows(std::vector<CondensedBody> bodies,
-                         const std::vector<Interface> &interfaces)
+/// What is left of a block in a problem, without gaps and friction.
+void take(Block block, ReducedProblem &problem)
 {
+   const Index n = block.S.rows() / 2;
+   problem.gap = problem.friction = Eigen::VectorXd::Zero(n);
+   problem.K = std::move(block.S);
+   problem.H = block.H;
+   problem.rigid_motions = block.motions;
+   for (int row : block.held)
+   {
+      problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
+      problem.held.push_back(row);
+   }
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const auto column = static_cast<Index>(k);
+      problem.patterns[k].q = block.f.col(column).head(n);
+      problem.patterns[k].p = block.f.col(column).tail(n);
+   }
+   // Of mirror images tangential and normal displacements do not feel each other. What rounding
+   // and two meshes leave of it goes.
+   const Eigen::ArrayXd own = problem.K.diagonal().cwiseSqrt();
+   const auto none = [&](Index j)
+   { return (problem.K.col(j).tail(n).array().abs() <= 1e-10 * own[j] * own.tail(n)).all(); };
+   Index j = 0;
+   while (j < n && none(j)) { ++j; }
+   if (j == n) { problem.K.bottomLeftCorner(n, n).setZero(); }
+   join_coupling(problem);
+}
+
+} // namespace
+
+Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &given)
+{
+   require_some(bodies, given);
+   const std::vector<Interface> interfaces = paired_if_matching(bodies, given);
    Reduction result;
    for (const CondensedBody &body : bodies) { result.counters += body.counters; }
-   ++result.counters.unions;
+   const bool alone =
+      bodies.size() == 1 && interfaces.size() == 1 && interfaces[0].second.body < 0;
+   result.counters.unions += !alone;
    result.bodies = std::move(bodies);
-   std::vector<InterfaceRows> facings;
+   std::vector<MetInterface> met;
    auto rows = std::make_shared<UnionRows>();
-   rows->rows = rows_of(interfaces, result.bodies, facings);
-   rows->groups = groups_of(result.bodies.size(), facings);
-   sort_out(facings, *rows);
+   rows->rows = rows_of(interfaces, result.bodies, met);
+   rows->groups = groups_of(result.bodies.size(), met);
+   sort_out(met, *rows);
    const auto n = static_cast<Index>(rows->free.size()); // none where all is tied
    const auto count = static_cast<int>(result.bodies.size());
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);
-   const Block block = united(result.bodies, *rows, result.pattern_, problem.patterns);
+   Block block = united(result.bodies, *rows, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
    result.rows_ = std::move(rows);
    take(std::move(block), problem);
@@ -139,15 +141,61 @@ Reduction reduce_by_rows(std::vector<CondensedBody> bodies,
    problem.position.resize(n, 2);
    problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
    std::array<Index, 2> next{0, 0}; // of nodes that are not tied, and of those that are
-   for (const InterfaceRows &facing : facings)
+   for (const MetInterface &interface : met)
    {
-      InterfaceReport report = facing.report();
+      InterfaceReport report = report_of(interface);
       report.first = next[report.tied];
       next[report.tied] += report.nodes;
-      if (!report.tied) { facing.add_facts(problem, report.first, report.matching, facings); }
+      if (!report.tied) { add_facts(problem, report.first, report.matching, interface, met); }
       result.interfaces.push_back(std::move(report));
    }
    return result;
+}
+
+Reduction reduce(CondensedBody body, const ScalarField &gap)
+{
+   require(body.line.formulation != Formulation::torsion,
+           "reduce: the body is one of torsion, which is to be added to a reduction");
+   const Index n = body.line.size();
+   for (int row : body.held)
+   {
+      require(row < n, "reduce: the contact node at ", body.line.nodes[row % n].position,
+              " is fixed normal to the line, it must be able to open: the contact line must "
+              "end before it");
+   }
+   Interface contact;
+   contact.first = {0, body.line};
+   contact.gap = gap;
+   std::vector<CondensedBody> bodies;
+   bodies.push_back(std::move(body));
+   return reduce(std::move(bodies), std::vector<Interface>{contact});
+}
+
+Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing)
+{
+   const Index n = body1.line.size();
+   require(body1.line.formulation == body2.line.formulation &&
+              body1.line.formulation != Formulation::torsion,
+           "reduce: the bodies must be both plane or both axisymmetric (those of torsion are "
+           "added to a reduction of these)");
+   require(body2.line.size() == n && static_cast<Index>(pairing.partner.size()) == n &&
+              pairing.gap.size() == n,
+           "reduce: contact lines of ", n, " and ", body2.line.size(),
+           " nodes with a pairing of ", pairing.partner.size(), ", must be as many");
+   Interface contact;
+   contact.first = {0, body1.line};
+   contact.second = {1, body2.line};
+   contact.pairing = pairing;
+   std::vector<CondensedBody> bodies;
+   bodies.push_back(std::move(body1));
+   bodies.push_back(std::move(body2));
+   Reduction made = reduce(std::move(bodies), std::vector<Interface>{contact});
+   const InterfaceReport &report = made.interfaces[0];
+   require(report.without_row.empty(), "reduce: the contact node at ",
+           report.without_row.empty() ? Eigen::Vector2d() : report.without_row[0],
+           " is fixed normal to the line, it must be able to open: the contact line must "
+           "end before it");
+   return made;
 }
 
 SeparateBodies separate(const std::vector<CondensedBody> &bodies,
@@ -159,8 +207,8 @@ SeparateBodies separate(const std::vector<CondensedBody> &bodies,
       require(!interface.tied, "interface '", interface.name,
               "': it is tied, its bodies have no displacements of their own there");
    }
-   std::vector<InterfaceRows> facings;
-   const RelativeDisplacement map(bodies, rows_of(interfaces, bodies, facings));
+   std::vector<MetInterface> met;
+   const RelativeDisplacement map(bodies, rows_of(interfaces, bodies, met));
    SeparateBodies result;
    const Reduction::PatternIndex index = join(bodies, result.patterns);
    result.L = map.G;

@@ -185,10 +185,8 @@ public:
    using PatternIndex = std::vector<std::vector<int>>;
 
 private:
-   friend Reduction reduce(CondensedBody body, const ScalarField &gap);
-   friend Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
-   friend Reduction reduce_by_rows(std::vector<CondensedBody> bodies,
-                                   const std::vector<Interface> &interfaces);
+   friend Reduction reduce(std::vector<CondensedBody> bodies,
+                           const std::vector<Interface> &interfaces);
    /// With the forces of shanks in the place of their pretensions, for displacements {v; w} of
    /// which the obstacle's are a part.
    Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;
@@ -197,8 +195,7 @@ private:
                            const Eigen::VectorXd &multipliers);
 
    std::shared_ptr<const Union> union_, torsion_union_;
-   std::shared_ptr<const UnionRows> rows_; ///< of a union over interfaces
-   std::vector<int> partner_;              ///< of two bodies with nodes that match
+   std::shared_ptr<const UnionRows> rows_; ///< of all interfaces
    PatternIndex pattern_, torsion_pattern_;
    /// Displacements {v; w} of rigid obstacles in some motions, a column each, zero beyond their
    /// interfaces. InputError, which begins with `where`.
@@ -227,20 +224,17 @@ private:
 /// one is.
 Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
 
-/** Two bodies (thesis 3.3) by the symmetric formulas
+/** Two bodies (thesis 3.3) with nodes one to one; by the symmetric formulas
 
        S = S1 - S1 (S1 + S2)⁻¹ S1,     f = f1 - S1 (S1 + S2)⁻¹ (f1 - f2);
 
-    either or both may be free. Gap of the pairing, and of smooth curves that elements are
-   chords of (ContactLine::off_curves()); it may be overwritten in the result. Frames (those of
-   the interface's report) and weights of the nodes are the mean of both bodies'; body 2's
-   frames are turned onto their opposite first. A component that one body holds is the other's
-   alone; one that both hold is held in the problem. Where supports hold a component that is not
-   along the frames of both bodies the union is that over interfaces, in the same frames.
-   InputError if the held component is a normal one, if one body holds one component there and
-   the other body the other, if a common rigid motion of two free bodies is loaded, or if a
-   pattern is force-controlled in one and displacement-controlled in the other.
-    */
+    either or both may be free. It is reduce(bodies, interfaces) with the pairing as the only
+    interface. Gap of the pairing, and of smooth curves that elements are chords of
+    (ContactLine::off_curves()); it may be overwritten in the result. Frames (those of the
+    interface's report) and weights of the nodes are the mean of both bodies'. A component that
+    one body holds is the other's alone; one that both hold is held in the problem. InputError
+    if both hold a normal one, if a common rigid motion of two free bodies is loaded, or if a
+    pattern is force-controlled in one and displacement-controlled in the other. */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
 
 } // namespace cattaneo

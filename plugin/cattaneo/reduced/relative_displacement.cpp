@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cattaneo/reduced/relative_displacement.hpp>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 
 namespace cattaneo
 {
@@ -46,6 +49,76 @@ Matrix2d turned(const ContactRow &row, const TraceShare &share, const Matrix2d &
 
 } // namespace
 
+bool holds(const CondensedBody &body, int node, int component)
+{
+   const auto row = static_cast<int>(node + component * body.line.size());
+   return std::binary_search(body.held.begin(), body.held.end(), row);
+}
+
+const NodeOfBody *ContactRow::partner() const
+{
+   if (shares.size() != 2) { return nullptr; }
+   const int other = shares[0].of == slave ? 1 : 0;
+   const double same = 1e-12; // more than the round-off of dual functions
+   for (int k : {0, 1})
+   {
+      const double whole = k == other ? -1 : 1;
+      if (std::abs(shares[k].x - whole) > same || std::abs(shares[k].y - whole) > same)
+      {
+         return nullptr;
+      }
+   }
+   return &shares[other].of;
+}
+
+void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<ContactRow> &rows)
+{
+   const int components = cattaneo::components(bodies.front().line.formulation);
+   const double infinite = std::numeric_limits<double>::infinity();
+   std::set<NodeOfBody> slaves, taken;
+   for (const ContactRow &row : rows) { slaves.insert(row.slave); }
+   // A partner that has a row of its own is determined there.
+   const auto has_choice = [&](const ContactRow &row)
+   { return row.partner() && slaves.count(*row.partner()) == 0; };
+   for (ContactRow &row : rows)
+   {
+      row.dependent = {row.slave, row.slave};
+      if (!has_choice(row)) { taken.insert(row.slave); }
+   }
+   for (ContactRow &row : rows)
+   {
+      if (!has_choice(row) || taken.count(*row.partner())) { continue; }
+      const NodeOfBody partner = *row.partner();
+      const auto held = [&](const NodeOfBody &at, int c)
+      { return holds(bodies[at.first], at.second, c); };
+      const auto stiffness = [&](const NodeOfBody &at, int c)
+      {
+         const CondensedBody &body = bodies[at.first];
+         return body.S.diagonal()[at.second + c * body.line.size()];
+      };
+      double own = 0, other = 0;
+      bool any_held = false;
+      for (int c = 0; c < components; ++c)
+      {
+         any_held = any_held || held(row.slave, c) || held(partner, c);
+         own += stiffness(row.slave, c);
+         other += stiffness(partner, c);
+      }
+      const double much = 1.01; // more than round-off of equal bodies
+      const bool taken_already = taken.count(row.slave) > 0;
+      for (int c = 0; c < components; ++c)
+      {
+         if (any_held)
+         {
+            own = held(row.slave, c) ? infinite : stiffness(row.slave, c);
+            other = held(partner, c) ? infinite : stiffness(partner, c);
+         }
+         if (taken_already || own > much * other) { row.dependent[c] = partner; }
+      }
+      taken.insert(row.dependent.begin(), row.dependent.end());
+   }
+}
+
 RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bodies,
                                            const std::vector<ContactRow> &rows)
 {
@@ -65,74 +138,74 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
          free.back().push_back(row);
       }
    }
-   const auto dof = [&](int body, int node, int component)
+   const auto dof = [&](const NodeOfBody &at, int component)
    {
-      return component < components ? number[body][node + component * bodies[body].line.size()]
-                                    : -1;
+      return component < components
+                ? number[at.first][at.second + component * bodies[at.first].line.size()]
+                : -1;
    };
    // Numbers in u, -1: does not slide.
    const auto n = static_cast<int>(rows.size());
-   std::vector<std::array<int, 2>> relative(rows.size(), {-1, -1});
-   for (int component = 0; component < components; ++component)
+   place.assign(components * n, -1);
+   for (int row = 0; row < components * n; ++row)
    {
-      for (int i = 0; i < n; ++i)
-      {
-         if (component == 0 && !rows[i].slides) { continue; }
-         relative[i][component] = static_cast<int>(sliding.size());
-         sliding.push_back(i + component * n);
-      }
+      if (row < n && !rows[row].slides) { continue; }
+      place[row] = static_cast<int>(sliding.size());
+      sliding.push_back(row);
    }
+   const auto relative = [&](int i, int component)
+   { return component < components ? place[i + component * n] : -1; };
    const auto m = static_cast<int>(sliding.size());
-   std::vector<int> slave_of(size, -1); // the contact node whose slave a component of U is
+   std::vector<int> row_of(size, -1); // the contact node that determines a component of U
    for (int i = 0; i < n; ++i)
    {
       for (int component : {0, 1})
       {
-         const int own = dof(rows[i].body, rows[i].node, component);
-         if (own >= 0) { slave_of[own] = i; }
+         const int own = dof(rows[i].dependent[component], component);
+         if (own >= 0) { row_of[own] = i; }
       }
    }
    std::vector<Sum> displacement(size), seen(m);
    int y = m;
    for (int k = 0; k < size; ++k)
    {
-      if (slave_of[k] < 0) { displacement[k][y++] = 1; }
+      if (row_of[k] < 0) { displacement[k][y++] = 1; }
    }
    std::vector<bool> made(rows.size(), false);
-   // Of the nodes that a slave depends on first. Slaves that are masters as well are few, and
-   // no deeper than there are interfaces.
+   // First those of the nodes that a dependent one depends on. Dependent nodes that others
+   // depend on are few, and no deeper than there are interfaces.
    const std::function<void(int)> make = [&](int i)
    {
       if (made[i]) { return; }
       made[i] = true;
       const ContactRow &row = rows[i];
-      Matrix2d own = Matrix2d::Zero();
+      Matrix2d own = Matrix2d::Zero(); // columns: of the dependent components
       std::array<Sum, 2> rest;
       for (const TraceShare &share : row.shares)
       {
          Matrix2d block = share.x * Matrix2d::Identity();
          if (components == 2)
          {
-            block = turned(row, share, bodies[share.body].directions(share.node));
+            block = turned(row, share, bodies[share.of.first].directions(share.of.second));
          }
-         const bool is_own = share.body == row.body && share.node == row.node;
-         if (is_own) { own += block; }
          for (int b : {0, 1})
          {
-            const int column = dof(share.body, share.node, b);
+            const bool is_own = share.of == row.dependent[b];
+            if (is_own) { own.col(b) += block.col(b); }
+            const int column = dof(share.of, b);
             if (column < 0) { continue; }
-            if (!is_own && slave_of[column] >= 0) { make(slave_of[column]); }
+            if (!is_own && row_of[column] >= 0) { make(row_of[column]); }
             for (int a : {0, 1})
             {
-               if (relative[i][a] < 0 || block(a, b) == 0) { continue; }
-               seen[relative[i][a]][column] += block(a, b);
+               if (relative(i, a) < 0 || block(a, b) == 0) { continue; }
+               seen[relative(i, a)][column] += block(a, b);
                if (!is_own) { add(rest[a], displacement[column], -block(a, b)); }
             }
          }
       }
       for (int a : {0, 1})
       {
-         if (relative[i][a] >= 0) { rest[a][relative[i][a]] = 1; }
+         if (relative(i, a) >= 0) { rest[a][relative(i, a)] = 1; }
       }
       if (!row.slides) // it moves across what is held alone
       {
@@ -142,7 +215,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       const Matrix2d inverse = own.inverse();
       for (int b : {0, 1})
       {
-         const int column = dof(row.body, row.node, b);
+         const int column = dof(row.dependent[b], b);
          if (column < 0) { continue; }
          for (int a : {0, 1}) { add(displacement[column], rest[a], inverse(b, a)); }
       }
@@ -161,6 +234,17 @@ RelativeDisplacement::stacked(const std::vector<Eigen::MatrixXd> &of_bodies) con
    {
       all.middleRows(offsets[b], static_cast<Index>(free[b].size())) =
          of_bodies[b](free[b], Eigen::all);
+   }
+   return all;
+}
+
+Eigen::VectorXd RelativeDisplacement::of_body(int body, const Eigen::VectorXd &U,
+                                              Index rows) const
+{
+   Eigen::VectorXd all = Eigen::VectorXd::Zero(rows);
+   for (std::size_t k = 0; k < free[body].size(); ++k)
+   {
+      all[free[body][k]] = U[offsets[body] + static_cast<Index>(k)];
    }
    return all;
 }

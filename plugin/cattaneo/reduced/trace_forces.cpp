@@ -1,6 +1,5 @@
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/reduced/bodies_union.hpp>
-#include <cattaneo/reduced/relative_displacement.hpp>
+#include <cattaneo/reduced/union.hpp>
 
 namespace cattaneo
 {
@@ -22,32 +21,22 @@ MatrixX2d Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
    const auto force = [](const Vector2d &t, double along, double across)
    { return Vector2d(along * t[0] - across * t[1], along * t[1] + across * t[0]); };
    const auto slip = [&](Index i) { return q.size() == 0 ? 0.0 : q[i]; };
-   if (rows_)
+   const auto add = [&](int row, double along, double across)
    {
-      const auto add = [&](int row, double along, double across)
+      const ContactRow &of = rows_->rows[row];
+      const Vector2d its = force(of.tangent, along, across);
+      for (const TraceShare &share : of.shares)
       {
-         const ContactRow &of = rows_->rows[row];
-         const Vector2d its = force(of.tangent, along, across);
-         for (const TraceShare &share : of.shares)
-         {
-            if (share.body != b) { continue; }
-            forces(share.node, 0) += share.x * its[0];
-            forces(share.node, 1) += share.y * its[1];
-         }
-      };
-      const auto ties = static_cast<Index>(rows_->tied.size());
-      require(ties == 0 || tied.size() == 2 * ties, "contact forces: ", tied.size(),
-              " forces of tied nodes, must be ", 2 * ties);
-      for (Index i = 0; i < n; ++i) { add(rows_->free[i], slip(i), p[i]); }
-      for (Index i = 0; i < ties; ++i) { add(rows_->tied[i], tied[i], tied[ties + i]); }
-      return forces;
-   }
-   for (Index i = 0; i < n; ++i)
-   {
-      const Vector2d its = force(interfaces[0].tangent.row(i), slip(i), p[i]);
-      if (b == 0) { forces.row(i) += its; }
-      else { forces.row(partner_[i]) -= its; }
-   }
+         if (share.of.first != b) { continue; }
+         forces(share.of.second, 0) += share.x * its[0];
+         forces(share.of.second, 1) += share.y * its[1];
+      }
+   };
+   const auto ties = static_cast<Index>(rows_->tied.size());
+   require(ties == 0 || tied.size() == 2 * ties, "contact forces: ", tied.size(),
+           " forces of tied nodes, must be ", 2 * ties);
+   for (Index i = 0; i < n; ++i) { add(rows_->free[i], slip(i), p[i]); }
+   for (Index i = 0; i < ties; ++i) { add(rows_->tied[i], tied[i], tied[ties + i]); }
    return forces;
 }
 

@@ -1,15 +1,18 @@
 #pragma once
 
-#include <Eigen/Sparse>
+#include <Eigen/SparseCore>
 #include <cattaneo/condense/condensed_body.hpp>
 
 namespace cattaneo
 {
 
+/// A node of a body's trace, over all bodies.
+using NodeOfBody = std::pair<int, int>;
+
 /// What a contact node sees of a node of a body's trace: in global components, x and y apart.
 struct TraceShare
 {
-   int body = 0, node = 0;
+   NodeOfBody of;
    double x = 0, y = 0;
 };
 
@@ -17,17 +20,33 @@ struct TraceShare
 /// tangent.
 struct ContactRow
 {
-   int body = 0, node = 0; ///< of the slave
+   NodeOfBody slave;
    Eigen::Vector2d tangent{1, 0};
    bool slides = true; ///< false: the slave is held along the tangent, and so is what it faces
    std::vector<TraceShare> shares; ///< the slave's own among them
+   /// The nodes whose components, 0 along the tangent and 1 across it, relative displacements
+   /// determine: the slave, or the one node that faces it. See choose_dependents().
+   std::array<NodeOfBody, 2> dependent{slave, slave};
+
+   /// The node that faces the slave if it sees that one alone, as it is.
+   const NodeOfBody *partner() const;
 };
+
+/// Do supports hold a component of a contact node, 0 along its frame or 1 across?
+bool holds(const CondensedBody &body, int node, int component);
+
+/** Which nodes relative displacements determine. Of two nodes that face each other alone either
+    may be it: the one that no support holds, then the softer one, since what is taken from its
+    stiffness is less and loses fewer digits. Where one of them is held in a component the other
+    is determined there. A row along whose tangent both are held does not slide. */
+void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<ContactRow> &rows);
 
 /** How contact displacements of bodies and relative displacements of contact nodes make each
     other: U = E {u; y} and u = G U, where U are all components of the bodies' traces that are
     not held, one body after the other, each {v; w} in its own frames; u the relative
     displacements {v; w} without those that do not slide; y the components of U that are no
-    slave's. Of bodies that twist there is one component, v, and the share of x counts. */
+    dependent ones. Of bodies that twist there is one component, v, and the share of x counts.
+ */
 struct RelativeDisplacement
 {
    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -35,15 +54,18 @@ struct RelativeDisplacement
    std::vector<Eigen::Index> offsets;  ///< of each body in U
    std::vector<std::vector<int>> free; ///< rows of each body's S that U has
    std::vector<int> sliding;           ///< rows of u in {v; w} of all contact nodes
+   std::vector<int> place;             ///< and those of {v; w} in u, -1: does not slide
    int components = 2;                 ///< of a node
 
-   /// No slave's displacement may depend on itself.
+   /// No dependent displacement may depend on itself.
    RelativeDisplacement(const std::vector<CondensedBody> &bodies,
                         const std::vector<ContactRow> &rows);
    Eigen::Index size() const { return E.rows(); }
    Eigen::Index relative() const { return G.rows(); }
    /// Bodies' matrices of as many rows as their S, stacked.
    Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd> &of_bodies) const;
+   /// Rows of one body in a matrix or vector of U, in the rows of its S.
+   Eigen::VectorXd of_body(int body, const Eigen::VectorXd &U, Eigen::Index rows) const;
 };
 
 } // namespace cattaneo

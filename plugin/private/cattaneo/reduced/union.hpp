@@ -1,71 +1,54 @@
 #pragma once
 
-#include <cattaneo/algebra/dense_cholesky.hpp>
-#include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/reduced/reduction.hpp>
+#include <cattaneo/reduced/relative_displacement.hpp>
 
 namespace cattaneo
 {
 
-/// Of two bodies whose nodes match.
-class PairUnion : public Reduction::Union
+/// The contact nodes of all interfaces, of which some are tied.
+struct UnionRows
 {
-public:
-   DenseCholesky sum; ///< of S1 + S2 (+ springs on common rigid motions) where both are free
-   Eigen::MatrixXd difference;    ///< f1 - f2 of each pattern
-   std::vector<int> held1, held2; ///< rows that a body holds: the other alone moves there
-   Eigen::MatrixXd of_held;       ///< columns of S1 that body 2 holds
-   std::vector<int> partner;
-   FrameChange frames; ///< from body 2's own frames (in the order of body 1)
-
-   /// Where body 2 has the rows of body 1's order.
-   std::vector<int> order(Eigen::Index rows) const;
-   Eigen::VectorXd own(const std::vector<CondensedBody> &bodies, int b,
-                       const Eigen::VectorXd &relative,
-                       const Eigen::VectorXd &multipliers) const override;
-
-private:
-   Eigen::VectorXd to_second(const Eigen::VectorXd &u) const;
+   std::vector<ContactRow> rows;
+   /// Numbers of the bodies that interfaces join, those that touch a rigid obstacle left out
+   /// (nothing moves them together without moving them against it).
+   std::vector<std::vector<int>> groups;
+   std::vector<int> free, tied; ///< numbers of rows
 };
 
-/// Do supports hold a component of a contact node, 0 along its frame or 1 across?
-bool holds(const CondensedBody &body, int node, int component);
-
-/// One or two bodies on relative displacements: f = S u + Σ λ_k f_k.
+/// Bodies on relative displacements: f = S u + Σ λ_k f_k.
 struct Block
 {
    Eigen::MatrixXd S, f, H;
    Eigen::MatrixXd motions;                          ///< that nothing resists, orthonormal
    std::vector<int> held;                            ///< rows that no body moves
-   std::shared_ptr<const Reduction::Union> way_back; ///< of several bodies
+   std::shared_ptr<const Reduction::Union> way_back; ///< to the bodies' displacements
 };
+
+/** Bodies on the relative displacements of the contact nodes that are not tied, components one
+    after the other: the formula of reduce(bodies, interfaces). InputError if a common motion of
+    a group is loaded, or if bodies can move where all contact nodes stick. */
+Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
+             const Reduction::PatternIndex &index, const std::vector<LoadPattern> &patterns);
 
 /// Numbers of the bodies' patterns among all, which grow by those that are new.
 Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
                              std::vector<LoadPattern> &all);
 
-/// One body on a rigid obstacle, of `count` patterns.
-Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Index count);
-
 /// Forces {q; p} of a body's patterns as columns, in the order of the joined patterns.
 Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int> &index,
                                Eigen::Index count);
-void add_response(const CondensedBody &body, const std::vector<int> &index, Eigen::MatrixXd &H);
 
-/// InputError if a load pattern does work on motions that nothing resists; else the rounding of
-/// that work is taken from the forces. `motions`: orthonormal columns; `forces`: a column a
-/// pattern; `scale`: their size; `bodies`: whose motions they are.
-void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
-             const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns,
-             const std::string &bodies);
+/// What the bodies of a group may do together without resistance, orthonormal columns in U.
+Eigen::MatrixXd common_motions(const std::vector<CondensedBody> &bodies,
+                               const std::vector<int> &group, const RelativeDisplacement &map);
+/// Free motions of all bodies without the directions of Y, which they span, as columns in U.
+Eigen::MatrixXd motions_apart(const std::vector<CondensedBody> &bodies,
+                              const RelativeDisplacement &map, const Eigen::MatrixXd &Y);
 
-/// Stiffness, loads, motions and held components of a reduced problem of two components a node,
-/// without gaps and friction.
-void take(Block block, ReducedProblem &problem);
-
-/// Two bodies, by the formulas of reduce().
-Block united(const CondensedBody &first, const CondensedBody &second,
-             const std::vector<int> &partner, const Reduction::PatternIndex &index,
-             const std::vector<LoadPattern> &patterns);
+/// What a body is called in a sentence.
+std::string called(const std::vector<CondensedBody> &bodies, int body);
+/// What some of them are called.
+std::string called(const std::vector<CondensedBody> &bodies, const std::vector<int> &some);
 
 } // namespace cattaneo

@@ -1,0 +1,89 @@
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/reduced/union.hpp>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+namespace
+{
+
+/// Rigid motions of the plane (or along the axis) about a point, of bodies' traces.
+MatrixXd about(const CondensedBody &body, const Eigen::Vector2d &centre, double size)
+{
+   MatrixXd R = body.rigid_motions();
+   if (R.cols() == 3)
+   {
+      R.col(2) = (R.col(2) + centre[1] * R.col(0) - centre[0] * R.col(1)) / size;
+   }
+   return R;
+}
+
+/** Rigid motions that all bodies of a group may do, as columns of coefficients. A body's free
+    motions are rigid motions of the whole, so that each direction of these is either free or
+    not: values are 0 or 1 (about hinges, to how far apart they are). */
+MatrixXd common_coefficients(const std::vector<CondensedBody> &bodies,
+                             const std::vector<int> &group, const Eigen::Vector2d &centre,
+                             double size)
+{
+   MatrixXd resisted;
+   for (int b : group)
+   {
+      const ThinQR R = thin_qr(about(bodies[b], centre, size));
+      const MatrixXd &Q = bodies[b].free_motions;
+      const MatrixXd rest = R.Q - Q * (Q.transpose() * R.Q);
+      const SymmetricModes modes = symmetric_modes(rest.transpose() * rest);
+      const Index held = (modes.values.array() > 1e-9).count();
+      // Motions Rc that are free: those whose part along the resisted directions vanishes.
+      MatrixXd rows = modes.vectors.rightCols(held).transpose() * R.R;
+      for (Index k = 0; k < rows.rows(); ++k) { rows.row(k).normalize(); }
+      resisted.conservativeResize(resisted.rows() + held, R.R.cols());
+      resisted.bottomRows(held) = rows;
+   }
+   const SymmetricModes modes = symmetric_modes(resisted.transpose() * resisted);
+   return modes.vectors.leftCols((modes.values.array() < 1e-14).count());
+}
+
+} // namespace
+
+MatrixXd common_motions(const std::vector<CondensedBody> &bodies, const std::vector<int> &group,
+                        const RelativeDisplacement &map)
+{
+   Eigen::AlignedBox2d box;
+   for (int b : group)
+   {
+      for (const LineNode &node : bodies[b].line.nodes) { box.extend(node.position); }
+   }
+   const double size = box.diagonal().norm() > 0 ? box.diagonal().norm() : 1;
+   const MatrixXd c = common_coefficients(bodies, group, box.center(), size);
+   MatrixXd motions = MatrixXd::Zero(map.size(), c.cols());
+   if (c.cols() == 0) { return motions; }
+   for (int b : group)
+   {
+      motions.middleRows(map.offsets[b], static_cast<Index>(map.free[b].size())) =
+         (about(bodies[b], box.center(), size) * c)(map.free[b], Eigen::all);
+   }
+   return thin_qr(motions).Q;
+}
+
+MatrixXd motions_apart(const std::vector<CondensedBody> &bodies,
+                       const RelativeDisplacement &map, const MatrixXd &Y)
+{
+   MatrixXd all = MatrixXd::Zero(map.size(), 0);
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      const MatrixXd &own = bodies[b].free_motions;
+      all.conservativeResizeLike(MatrixXd::Zero(map.size(), all.cols() + own.cols()));
+      all.rightCols(own.cols())
+         .middleRows(map.offsets[b], static_cast<Index>(map.free[b].size())) =
+         own(map.free[b], Eigen::all);
+   }
+   if (Y.cols() == 0) { return all; }
+   const MatrixXd along = Y.transpose() * all;
+   const SymmetricModes modes = symmetric_modes(along.transpose() * along);
+   return all * modes.vectors.leftCols(all.cols() - Y.cols());
+}
+
+} // namespace cattaneo
