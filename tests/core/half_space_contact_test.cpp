@@ -24,6 +24,7 @@ using namespace cattaneo;
 using cattaneo_test::cells;
 using cattaneo_test::conjugate;
 using cattaneo_test::contact_of;
+using cattaneo_test::FactorsOfIncrements;
 using cattaneo_test::kalkers_spence;
 using cattaneo_test::marched;
 using cattaneo_test::number_closed;
@@ -300,12 +301,17 @@ TEST(HalfSpaceContact, KalkersContactSpence)
    ReducedProblem problem = kalkers_spence(1.3);
    ContactState state = ContactState::virgin(problem);
    FrictionSolver solver(problem);
+   FactorsOfIncrements factors;
    for (const double P : {1.1e-5, 8.8e-5, 2.96e-4, 7.02e-4, 1.372e-3, 2.37e-3})
    {
       VectorXd loads = VectorXd::Zero(3);
       loads[problem.pattern("P")] = P;
       ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged) << P;
+      factors.note(solver.counters());
    }
+   EXPECT_LE(factors.most, 20);
+   EXPECT_LE(factors.mean(), 6);
+   EXPECT_EQ(solver.counters().sweeps, 0);
    EXPECT_NEAR(conjugate(problem, state, "P"), 2.901e-3, 0.5e-6);
    EXPECT_NEAR(state.p.maxCoeff() / problem.weights[0], 3.941e-3, 0.5e-6);
    EXPECT_EQ(number_closed(state), 29);
