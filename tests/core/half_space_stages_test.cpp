@@ -1,5 +1,6 @@
 #include "half_space_contacts.hpp"
 
+#include <cattaneo/shakedown/limit.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <record.hpp>
@@ -74,6 +75,29 @@ TEST(HalfSpaceStages, OneRectangleOfAThousand)
    EXPECT_EQ(number_closed(state), 1);
    EXPECT_NEAR(state.p.sum(), 1.1e-5, 1e-12);
    EXPECT_LE(solver.counters().dense_factorisations, 20);
+}
+
+/// A rigid punch of 545 squares under shear around a circle: proven bounds within 1e-4.
+TEST(HalfSpaceStages, LimitOfHundredsOfClosedNodes)
+{
+   HalfSpace punch =
+      cattaneo_test::contact_of({2.6, 0.3}, {}, 1, cattaneo_test::cells(27, 1, 13.1));
+   punch.ends = true;
+   ReducedProblem problem = punch.problem(Eigen::VectorXd::Zero(punch.centres.rows()));
+   ASSERT_GE(problem.nodes(), 532);
+   set_friction(problem, 0.03);
+   std::vector<NamedLoads> around;
+   for (int k = 0; k < 8; ++k)
+   {
+      around.push_back({{"Q1", std::cos(k * M_PI / 4)}, {"Q2", std::sin(k * M_PI / 4)}});
+   }
+   const LimitReport report =
+      load_limit(limit_problem(problem, LoadCycle::through(problem, {{"P", 1}}, around)));
+   ASSERT_TRUE(report.proven()) << report.message;
+   EXPECT_LE(report.upper - report.lower, 1e-4 * report.upper);
+   EXPECT_LE(report.violation, 0);
+   EXPECT_GT(report.lower, 0);
+   EXPECT_LE(report.upper, 0.03 * (1 + 1e-4)); // all slides
 }
 
 TEST(HalfSpaceStages, TwoThousandSquaresOfCattaneoAndMindlin)

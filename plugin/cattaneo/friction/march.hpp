@@ -125,9 +125,10 @@ struct LossError
    /// the difference: a bound, to round-off. False: an estimate, by two marches with other
    /// increments.
    bool bound = false;
-   /// The loss of this march without increments, by extrapolation, where its changes from march
-   /// to march fall in one ratio (0.15 to 0.65, increments of each piece a multiple of four or
-   /// fewer than four); NaN: they do not, or the value is a bound.
+   /// The loss of this march without increments, by extrapolation, where it holds: thirty nodes
+   /// or more share the loss, and its changes from march to march fall in one ratio (0.15 to
+   /// 0.65; increments of each piece are a multiple of four, or fewer than four). NaN: it does
+   /// not, or the value is a bound.
    double extrapolated = std::numeric_limits<double>::quiet_NaN();
    std::string by;    ///< what was marched beside it, or why nothing is known; one sentence
    Counters counters; ///< of that march; not in the report's own
