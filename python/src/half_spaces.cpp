@@ -79,9 +79,8 @@ void bind_half_spaces(nb::module_ &m)
                                        vector(forces, "forces", 3 * self.centres.rows())));
          },
          nb::arg("points"), nb::arg("forces"),
-         "At points (m, 3) inside of the bodies under nodal forces {q; p}, (3 n,): stresses "
-         "(m, "
-         "6) xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body above, z < 0 "
+         "Stresses (m, 6) at points (m, 3) inside of the bodies under nodal forces {q; p}, (3 "
+         "n,): xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body above, z < 0 "
          "the one below.")
       .def(
          "resultant",
@@ -91,9 +90,8 @@ void bind_half_spaces(nb::module_ &m)
                self.resultant(vector(forces, "forces", 3 * self.centres.rows()))));
          },
          nb::arg("forces"),
-         "Of nodal forces {q; p}, (3 n,), on the body above: (6,), force and moment about x = "
-         "y "
-         "= 0 along x, y and z.")
+         "(6,), force and moment about x = y = 0 along x, y and z, that nodal forces {q; p}, "
+         "(3 n,), are on the body above.")
       .def(
          "write_vtu",
          [](const HalfSpace &self, File name, const ReducedProblem &problem,

@@ -228,14 +228,11 @@ void bind_reduced_problems(nb::module_ &m)
          arg("A"), arg("B"), arg("C"), arg("patterns"), nb::kw_only(), arg("gap") = 0.0,
          arg("friction") = 0.0, arg("weights") = nb::none(), arg("arc_length") = nb::none(),
          arg("position") = nb::none(), arg("H") = nb::none(), arg("rigid_motions") = nb::none(),
-         "Of a problem made by hand: A (c n, c n), B (n, c n), C (n, n); gap and friction of "
-         "each "
-         "node or one number; with arc_length, which increases, its nodes follow each other on "
-         "one line. position: (n, 2), or (n, 3) of a surface in space. rigid_motions: (c n + "
-         "n, "
-         "k), all motions (v, w) that nothing resists, columns, where they are known; None: "
-         "they "
-         "are sought.")
+         "A problem made by hand: A (c n, c n), B (n, c n), C (n, n). gap and friction are of "
+         "each node, or one number. With arc_length, which increases, its nodes follow each "
+         "other on one line. position: (n, 2), or (n, 3) of a surface in space.\n"
+         "rigid_motions: (c n + n, k), all motions (v, w) that nothing resists, columns, where "
+         "they are known; None: they are sought.")
       .def_prop_ro("nodes", &Self::nodes, "n")
       .def_prop_ro("components", &Self::components, "c")
       .def_prop_ro("K", viewed(&Self::K), "(c n + n, c n + n), the whole stiffness; no copy")
