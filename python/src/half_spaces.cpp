@@ -20,7 +20,7 @@ void bind_half_spaces(nb::module_ &m)
       .def(
          "__init__",
          [](HalfSpace *self, const Material &material, const std::optional<Material> &other,
-            Numbers size, Numbers centres, bool turns)
+            Numbers size, Numbers centres, bool turns, bool ends)
          {
             HalfSpace body;
             body.material = material;
@@ -28,19 +28,22 @@ void bind_half_spaces(nb::module_ &m)
             body.size = vector_or_number(size, "size", 2);
             body.centres = matrix(centres, "centres", -1, 2);
             body.turns = turns;
+            body.ends = ends;
             body.validate();
             new (self) HalfSpace(std::move(body));
          },
          nb::arg("material"), nb::arg("other") = nb::none(), nb::kw_only(), nb::arg("size"),
-         nb::arg("centres"), nb::arg("turns") = false,
+         nb::arg("centres"), nb::arg("turns") = false, nb::arg("ends") = false,
          nb::sig("def __init__(self, material: Material, other: None | Material = None, *, "
                  "size: numpy.typing.ArrayLike, centres: numpy.typing.ArrayLike, turns: bool = "
-                 "False) -> None"),
+                 "False, ends: bool = False) -> None"),
          "material: of the body above. other: of the half-space below; None: it is rigid.\n"
          "size: edges (x, y) of every rectangle, or one number for both.\n"
          "centres: (n, 2), of the rectangles that may touch: any cells of one grid, in any "
          "order.\n"
-         "turns: is the body above free to turn about the normal through x = y = 0?")
+         "turns: is the body above free to turn about the normal through x = y = 0?\n"
+         "ends: does a body end at the rim of the rectangles, as a flat punch? Else contact "
+         "that is compressed there is cut off, and marches warn.")
       .def(
          "problem",
          [](const HalfSpace &self, Numbers gap)
@@ -76,10 +79,19 @@ void bind_half_spaces(nb::module_ &m)
                                        vector(forces, "forces", 3 * self.centres.rows())));
          },
          nb::arg("points"), nb::arg("forces"),
-         "At points (m, 3) inside of the bodies under nodal forces {q; p}, (3 n,): stresses "
-         "(m, "
-         "6) xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body above, z < 0 "
+         "Stresses (m, 6) at points (m, 3) inside of the bodies under nodal forces {q; p}, (3 "
+         "n,): xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body above, z < 0 "
          "the one below.")
+      .def(
+         "resultant",
+         [](const HalfSpace &self, Numbers forces)
+         {
+            return array(Eigen::VectorXd(
+               self.resultant(vector(forces, "forces", 3 * self.centres.rows()))));
+         },
+         nb::arg("forces"),
+         "(6,), force and moment about x = y = 0 along x, y and z, that nodal forces {q; p}, "
+         "(3 n,), are on the body above.")
       .def(
          "write_vtu",
          [](const HalfSpace &self, File name, const ReducedProblem &problem,
@@ -97,7 +109,8 @@ void bind_half_spaces(nb::module_ &m)
       .def_prop_ro(
          "centres", [](const HalfSpace &self) { return array(Eigen::MatrixXd(self.centres)); },
          "(n, 2), of the rectangles")
-      .def_ro("turns", &HalfSpace::turns, "is the body above free to turn?");
+      .def_ro("turns", &HalfSpace::turns, "is the body above free to turn?")
+      .def_ro("ends", &HalfSpace::ends, "does a body end at the rim of the rectangles?");
 
    nb::class_<Heights>(
       m, "Heights",

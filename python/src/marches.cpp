@@ -412,7 +412,9 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro("slip", number_of(&IncrementRecord::slip),
                    "with two tangential components: nodes that slip")
       .def_prop_ro("dissipation", number_of(&IncrementRecord::dissipation),
-                   "lost by friction in each increment")
+                   "lost by friction in each increment, ½ f (p₀ + p₁)|Δv|: what wears")
+      .def_prop_ro("friction_work", number_of(&IncrementRecord::friction_work),
+                   "-½(q₀ + q₁)·Δv of each increment, which balances the energy")
       .def_prop_ro("external_work", number_of(&IncrementRecord::external_work))
       .def_prop_ro("cycles",
                    [](const Self &self)
@@ -450,6 +452,11 @@ void bind_marches(nb::module_ &m)
             return asked ? error.by : "it was not asked for: MarchSettings.loss_error";
          },
          "what was marched beside it, or why nothing is known")
+      .def_prop_ro(
+         "extrapolated_loss",
+         [](const Self &self) { return self.report.loss_error.extrapolated; },
+         "loss of this march without increments, where the changes from march to march fall in "
+         "one ratio; nan: they do not, or it was not asked for")
       .def_prop_ro(
          "energy_imbalance", copied(&Self::report, &MarchReport::energy_imbalance),
          "balance of the energies, relative; of second order in the increments, so that it is "

@@ -87,11 +87,10 @@ void bind_zones(nb::module_ &m)
       {
          require(problem.weights.size() == problem.nodes(),
                  "the problem has no weights, which tractions need");
-         return array(
-            tractions(problem, vector(nodal_forces, "nodal_forces", problem.nodes())));
+         return array(tractions(problem, vector(nodal_forces, "nodal_forces")));
       },
       arg("problem"), arg("nodal_forces"),
-      "Forces over consistent weights, of one component: size n.");
+      "Forces over consistent weights: of p, (n,), or of the components of q, (c n,).");
 }
 
 void bind_edges(nb::module_ &m)

@@ -38,7 +38,7 @@ Eigen::MatrixXd mass(nb::object M)
 ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C,
                             const std::vector<LoadPattern> &patterns, nb::handle gap,
                             nb::handle friction, nb::handle weights, nb::handle arc_length,
-                            nb::handle position, nb::handle H)
+                            nb::handle position, nb::handle H, nb::handle rigid_motions)
 {
    ReducedProblem problem;
    const Eigen::MatrixXd normal = matrix(C, "C");
@@ -60,7 +60,7 @@ ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C,
    problem.gap = vector_or_number(gap, "gap", n);
    problem.friction = vector_or_number(friction, "friction", n);
    if (!weights.is_none()) { problem.weights = vector_or_number(weights, "weights", n); }
-   if (!position.is_none()) { problem.position = matrix(position, "position", n, 2); }
+   if (!position.is_none()) { problem.position = matrix(position, "position", n); }
    if (!arc_length.is_none())
    {
       problem.arc_length = vector(arc_length, "arc_length", n);
@@ -88,7 +88,14 @@ ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C,
               block(i, j), " and ", name, "[", j, ", ", i, "] is ", block(j, i),
               ", must be equal");
    }
-   problem.set_stiffness(tangential, matrix(B, "B", n, slips), normal);
+   const Eigen::MatrixXd coupling = matrix(B, "B", n, slips);
+   if (rigid_motions.is_none()) { problem.set_stiffness(tangential, coupling, normal); }
+   else
+   {
+      problem.set_stiffness(tangential, coupling, normal, {});
+      complete(problem, matrix(rigid_motions, "rigid_motions", slips + n));
+      require_semidefinite(problem);
+   }
    problem.validate();
    return problem;
 }
@@ -212,18 +219,20 @@ void bind_reduced_problems(nb::module_ &m)
          "__init__",
          [](Self *self, Numbers A, Numbers B, Numbers C,
             const std::vector<LoadPattern> &patterns, Numbers gap, Numbers friction,
-            Numbers weights, Numbers arc_length, Numbers position, Numbers H)
+            Numbers weights, Numbers arc_length, Numbers position, Numbers H,
+            Numbers rigid_motions)
          {
             new (self) Self(made_by_hand(A, B, C, patterns, gap, friction, weights, arc_length,
-                                         position, H));
+                                         position, H, rigid_motions));
          },
          arg("A"), arg("B"), arg("C"), arg("patterns"), nb::kw_only(), arg("gap") = 0.0,
          arg("friction") = 0.0, arg("weights") = nb::none(), arg("arc_length") = nb::none(),
-         arg("position") = nb::none(), arg("H") = nb::none(),
-         "Of a problem made by hand: A (c n, c n), B (n, c n), C (n, n); gap and friction of "
-         "each "
-         "node or one number; with arc_length, which increases, its nodes follow each other on "
-         "one line.")
+         arg("position") = nb::none(), arg("H") = nb::none(), arg("rigid_motions") = nb::none(),
+         "A problem made by hand: A (c n, c n), B (n, c n), C (n, n). gap and friction are of "
+         "each node, or one number. With arc_length, which increases, its nodes follow each "
+         "other on one line. position: (n, 2), or (n, 3) of a surface in space.\n"
+         "rigid_motions: (c n + n, k), all motions (v, w) that nothing resists, columns, where "
+         "they are known; None: they are sought.")
       .def_prop_ro("nodes", &Self::nodes, "n")
       .def_prop_ro("components", &Self::components, "c")
       .def_prop_ro("K", viewed(&Self::K), "(c n + n, c n + n), the whole stiffness; no copy")
@@ -293,7 +302,11 @@ void bind_reduced_problems(nb::module_ &m)
          "traction = force / weight")
       .def_prop_ro("arc_length", [](const Self &self) { return array(self.arc_length); })
       .def_prop_ro(
-         "position", [](const Self &self) { return array(self.position); }, "(n, 2)")
+         "position", [](const Self &self) { return array(self.position); },
+         "(n, 2), or (n, 3) of a surface in space")
+      .def_prop_ro(
+         "rim", [](const Self &self) { return array_of_indices(self.rim); },
+         "nodes of a surface beyond which the bodies go on: contact there is cut off")
       .def_prop_ro(
          "dofs", [](const Self &self) { return array<Integers>(self.dofs); },
          "(n, 2 bodies), rows of each node in each body's stiffness, -1: none")

@@ -147,7 +147,7 @@ TEST(FrictionDisc, AnIncrementOutOfReachIsReachedInStepsOfItsLoad)
    FrictionSettings few;
    few.sweeps = 0;
    few.max_attempts = 1;
-   few.max_newton = 8;
+   few.max_newton = 3;
    int out_of_reach = 0;
    for (int k = 0; k < 300; ++k)
    {

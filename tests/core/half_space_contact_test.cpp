@@ -24,6 +24,7 @@ using namespace cattaneo;
 using cattaneo_test::cells;
 using cattaneo_test::conjugate;
 using cattaneo_test::contact_of;
+using cattaneo_test::FactorsOfIncrements;
 using cattaneo_test::kalkers_spence;
 using cattaneo_test::marched;
 using cattaneo_test::number_closed;
@@ -300,12 +301,17 @@ TEST(HalfSpaceContact, KalkersContactSpence)
    ReducedProblem problem = kalkers_spence(1.3);
    ContactState state = ContactState::virgin(problem);
    FrictionSolver solver(problem);
+   FactorsOfIncrements factors;
    for (const double P : {1.1e-5, 8.8e-5, 2.96e-4, 7.02e-4, 1.372e-3, 2.37e-3})
    {
       VectorXd loads = VectorXd::Zero(3);
       loads[problem.pattern("P")] = P;
       ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged) << P;
+      factors.note(solver.counters());
    }
+   EXPECT_LE(factors.most, 20);
+   EXPECT_LE(factors.mean(), 6);
+   EXPECT_EQ(solver.counters().sweeps, 0);
    EXPECT_NEAR(conjugate(problem, state, "P"), 2.901e-3, 0.5e-6);
    EXPECT_NEAR(state.p.maxCoeff() / problem.weights[0], 3.941e-3, 0.5e-6);
    EXPECT_EQ(number_closed(state), 29);
@@ -509,6 +515,94 @@ TEST(HalfSpaceContact, NothingDependsOnTheFrame)
    marched(problem, {points[0], points[1]}, parts, 2);
    marched(problem, points, parts, 2);
    EXPECT_EQ(whole.q, parts.q);
+}
+
+/// Of 5 × 5 cells the outer 16 are the rim, and of a column of two all. Contact that is pressed
+/// there is said to be cut off, once in a march, unless a body ends there.
+TEST(HalfSpaceContact, ContactAtTheRimIsCutOff)
+{
+   HalfSpace contact = contact_of({1, 0.3}, {}, 0.1, cells(5, 0.1, 1));
+   const VectorXd gap = contact.centres.rowwise().squaredNorm() / 2;
+   ReducedProblem problem = contact.problem(gap);
+   EXPECT_EQ(problem.rim.size(), 16u);
+   for (const Index node : problem.rim)
+   {
+      EXPECT_NEAR(contact.centres.row(node).cwiseAbs().maxCoeff(), 0.2, 1e-12);
+   }
+   set_friction(problem, 0.3);
+   ContactState state = ContactState::virgin(problem);
+   EXPECT_TRUE(marched(problem, {{}, {{"P", 1e-3}}}, state).cut_off.empty());
+   EXPECT_GT(number_closed(state), 0);
+   state = ContactState::virgin(problem);
+   const MarchReport report =
+      marched(problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q1", 0.1}}}, state, 2);
+   ASSERT_EQ(report.cut_off.size(), 1u);
+   EXPECT_EQ(report.cut_off[0].chain, -1);
+   EXPECT_NE(report.cut_off[0].message().find("up to the rim of its surface"),
+             std::string::npos);
+   contact.ends = true;
+   problem = contact.problem(gap);
+   EXPECT_TRUE(problem.rim.empty());
+   problem.rim = {25};
+   expect_input_error([&] { problem.validate(); }, "node 25 of the rim, must be from 0 to 24");
+   contact.ends = false;
+   contact.centres = contact.centres.topRows(2).eval();
+   EXPECT_EQ(contact.problem(gap.head(2)).rim.size(), 2u);
+}
+
+/// A force along x at one place, and a pressure at another: r × F by hand.
+TEST(HalfSpaceContact, ResultantOfTwoForces)
+{
+   const HalfSpace contact = contact_of({1, 0.3}, {}, 0.5, cells(2, 0.5, 1));
+   VectorXd forces = VectorXd::Zero(12);
+   forces[3] = 2;     // along x at (0.25, 0.25)
+   forces[4 + 1] = 7; // along y at (0.25, -0.25)
+   forces[8] = 5;     // a pressure at (-0.25, -0.25)
+   Eigen::Matrix<double, 6, 1> expected;
+   expected << 2, 7, 5, -0.25 * 5, 0.25 * 5, 0.25 * 7 - 0.25 * 2;
+   EXPECT_LT((contact.resultant(forces) - expected).norm(), 1e-14);
+   expect_input_error([&] { contact.resultant(forces.head(8)); }, "8 nodal forces, must be 12");
+}
+
+/// ½ f (p₀ + p₁)|Δv| and -½(q₀ + q₁)·Δv are one where slip keeps its direction; where it turns
+/// the second is less, and balances the energy: work of the loads less that of friction and of
+/// pressures is what the bodies store.
+TEST(HalfSpaceContact, WorkOfFrictionBalancesTheEnergy)
+{
+   ReducedProblem problem = kalkers_spence(1.3);
+   ContactState state = ContactState::virgin(problem);
+   const double P = 2.37e-3, Q = 0.2 * P;
+   const auto energy = [&]
+   {
+      const VectorXd u = state.displacements(), loads = state.multipliers;
+      return 0.5 * u.dot(problem.K * u) + 0.5 * loads.dot(problem.H * loads);
+   };
+   double before = 0, normal = 0;
+   ContactState last = state;
+   MarchSettings settings;
+   settings.increments = 4;
+   const MarchReport report = march(
+      problem,
+      LoadHistory::through(
+         problem, {{}, {{"P", P}}, {{"P", P}, {"Q1", Q}}, {{"P", P}, {"Q1", 0}, {"Q2", Q}}}),
+      state, settings,
+      [&](const ContactState &at, const IncrementRecord &record)
+      {
+         normal -= 0.5 * (at.p + last.p).dot(at.w - last.w);
+         last = at;
+         EXPECT_LE(record.friction_work, record.dissipation * (1 + 1e-12));
+      });
+   ASSERT_EQ(report.status, FrictionStatus::converged);
+   double work = 0, friction = 0, lost = 0;
+   for (const IncrementRecord &each : report.increments)
+   {
+      work += each.external_work;
+      friction += each.friction_work;
+      lost += each.dissipation;
+   }
+   EXPECT_NEAR(work - friction - normal, energy() - before, 1e-11 * work);
+   EXPECT_LT(friction, lost);
+   EXPECT_GT(friction, 0.5 * lost);
 }
 
 TEST(HalfSpaceContact, SaysWhatItCannotTake)

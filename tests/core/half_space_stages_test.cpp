@@ -1,5 +1,6 @@
 #include "half_space_contacts.hpp"
 
+#include <cattaneo/shakedown/limit.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <record.hpp>
@@ -20,19 +21,83 @@ TEST(HalfSpaceStages, KalkersContactSpence)
    ReducedProblem problem = cattaneo_test::kalkers_spence(2.1);
    ContactState state = ContactState::virgin(problem);
    FrictionSolver solver(problem);
+   cattaneo_test::FactorsOfIncrements factors;
    for (int stage = 1; stage <= 18; ++stage)
    {
       // The force as CONTACT's input has it.
       Eigen::VectorXd loads = Eigen::VectorXd::Zero(3);
       loads[problem.pattern("P")] = std::round(1e6 * std::pow(stage / 45.0, 3)) / 1e6;
       ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged) << stage;
+      factors.note(solver.counters());
    }
+   EXPECT_LE(factors.most, 20);
+   EXPECT_LE(factors.mean(), 6);
    EXPECT_NEAR(conjugate(problem, state, "P"), 2.610e-2, 0.5e-5);
    EXPECT_NEAR(state.p.maxCoeff() / problem.weights[0], 1.220e-2, 0.5e-5);
    EXPECT_EQ(number_closed(state), 241);
    EXPECT_EQ(number_of(state, NodeState::stick), 61);
    cattaneo_test::record("approach", conjugate(problem, state, "P"));
    cattaneo_test::record("pressure", state.p.maxCoeff() / problem.weights[0]);
+}
+
+/// A march leaves out rectangles that are far from touching, and comes to what all of them come
+/// to.
+TEST(HalfSpaceStages, NearPartsAreTheWhole)
+{
+   ReducedProblem problem = cattaneo_test::kalkers_spence(2.1);
+   ContactState state = ContactState::virgin(problem), whole = state;
+   FrictionSolver solver(problem);
+   std::vector<NamedLoads> points{{}};
+   for (const double P : {1e-3, 4e-3, 9e-3, 16e-3})
+   {
+      points.push_back({{"P", P}, {"Q1", 0.1 * P}});
+      ASSERT_EQ(solver.solve(whole, problem.multipliers(points.back())).status,
+                FrictionStatus::converged);
+   }
+   const MarchReport report = cattaneo_test::marched(problem, points, state);
+   ASSERT_EQ(report.status, FrictionStatus::converged);
+   EXPECT_GT(report.counters.near_contacts, 0);
+   EXPECT_LT((state.q - whole.q).cwiseAbs().maxCoeff(), 1e-10 * whole.p.maxCoeff());
+   EXPECT_LT((state.p - whole.p).cwiseAbs().maxCoeff(), 1e-10 * whole.p.maxCoeff());
+   EXPECT_EQ(state.status, whole.status);
+}
+
+/// One of 1,101 rectangles touches.
+TEST(HalfSpaceStages, OneRectangleOfAThousand)
+{
+   ReducedProblem problem = cattaneo_test::kalkers_spence(3.75);
+   ASSERT_EQ(problem.nodes(), 1101);
+   ContactState state = ContactState::virgin(problem);
+   FrictionSolver solver(problem);
+   Eigen::VectorXd loads = Eigen::VectorXd::Zero(3);
+   loads[problem.pattern("P")] = 1.1e-5;
+   ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged);
+   EXPECT_EQ(number_closed(state), 1);
+   EXPECT_NEAR(state.p.sum(), 1.1e-5, 1e-12);
+   EXPECT_LE(solver.counters().dense_factorisations, 20);
+}
+
+/// A rigid punch of 545 squares under shear around a circle: proven bounds within 1e-4.
+TEST(HalfSpaceStages, LimitOfHundredsOfClosedNodes)
+{
+   HalfSpace punch =
+      cattaneo_test::contact_of({2.6, 0.3}, {}, 1, cattaneo_test::cells(27, 1, 13.1));
+   punch.ends = true;
+   ReducedProblem problem = punch.problem(Eigen::VectorXd::Zero(punch.centres.rows()));
+   ASSERT_GE(problem.nodes(), 532);
+   set_friction(problem, 0.03);
+   std::vector<NamedLoads> around;
+   for (int k = 0; k < 8; ++k)
+   {
+      around.push_back({{"Q1", std::cos(k * M_PI / 4)}, {"Q2", std::sin(k * M_PI / 4)}});
+   }
+   const LimitReport report =
+      load_limit(limit_problem(problem, LoadCycle::through(problem, {{"P", 1}}, around)));
+   ASSERT_TRUE(report.proven()) << report.message;
+   EXPECT_LE(report.upper - report.lower, 1e-4 * report.upper);
+   EXPECT_LE(report.violation, 0);
+   EXPECT_GT(report.lower, 0);
+   EXPECT_LE(report.upper, 0.03 * (1 + 1e-4)); // all slides
 }
 
 TEST(HalfSpaceStages, TwoThousandSquaresOfCattaneoAndMindlin)

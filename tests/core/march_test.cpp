@@ -1,5 +1,6 @@
 #include "disc_problems.hpp"
 #include "expect_input_error.hpp"
+#include "half_space_contacts.hpp"
 #include "period_two.hpp"
 #include "random_problem.hpp"
 #include "same_state.hpp"
@@ -660,6 +661,69 @@ TEST(March, LossErrorOfADiscIsAnEstimateThatHoldsMostly)
    std::printf("   %d of %d estimates of the error of the loss held\n", covered, marched);
    EXPECT_GT(marched, 80);
    EXPECT_GE(covered, 0.97 * marched);
+}
+
+/// Two spheres that are pressed and sheared: slip keeps its direction, one increment a leg has
+/// the loss to 1e-8 of the work, and the pressing, which loses nothing, is no part of its
+/// error.
+TEST(March, LossErrorOfADiscDoesNotKnowOfPressing)
+{
+   const double edge = 2.0 / 11, P = 0.1, f = 0.3;
+   const cattaneo_test::Places centres = cattaneo_test::cells(13, edge, 1.2);
+   const Material material = cattaneo_test::of_shear(1, 0);
+   ReducedProblem problem = cattaneo_test::contact_of(material, material, edge, centres)
+                               .problem(centres.rowwise().squaredNorm() / 10);
+   set_friction(problem, f);
+   MarchSettings settings;
+   settings.increments = 1;
+   settings.loss_error = true;
+   ContactState state = ContactState::virgin(problem);
+   const LoadHistory history =
+      LoadHistory::through(problem, {{}, {{"P", P}}, {{"P", P}, {"Q1", 0.8 * f * P}}});
+   const MarchReport report = march(problem, history, state, settings);
+   ASSERT_EQ(report.status, FrictionStatus::converged);
+   MarchSettings fine;
+   fine.increments = 64;
+   ContactState other = ContactState::virgin(problem);
+   ASSERT_EQ(march(problem, history, other, fine).status, FrictionStatus::converged);
+   const double apart = std::abs(state.dissipation - other.dissipation);
+   EXPECT_LE(apart, report.loss_error.value + 1e-12 * state.dissipation);
+   EXPECT_LE(report.loss_error.value, 1e-6 * state.dissipation);
+   EXPECT_FALSE(report.loss_error.bound);
+}
+
+/// Around a corner slip turns, and the loss of spheres is wrong to the first order or less:
+/// extrapolated from three marches it is nearer to that of many increments than this march.
+TEST(March, LossAroundACornerIsExtrapolated)
+{
+   const double edge = 2.0 / 15, P = 0.3, f = 0.3;
+   const cattaneo_test::Places centres = cattaneo_test::cells(19, edge, 1.2);
+   int known = 0;
+   for (const double share : {0.5, 0.7})
+   {
+      ReducedProblem problem =
+         cattaneo_test::contact_of(cattaneo_test::of_shear(1, 0.3), {}, edge, centres)
+            .problem(centres.rowwise().squaredNorm() / 10);
+      set_friction(problem, f);
+      const double Q = share * f * P;
+      const LoadHistory history = LoadHistory::through(
+         problem, {{}, {{"P", P}}, {{"Q1", Q}}, {{"Q2", 0.6 * Q}}, {{"Q1", -0.5 * Q}}});
+      MarchSettings settings;
+      settings.increments = 8;
+      settings.loss_error = true;
+      ContactState state = ContactState::virgin(problem), other = state;
+      const MarchReport report = march(problem, history, state, settings);
+      ASSERT_EQ(report.status, FrictionStatus::converged);
+      settings.loss_error = false;
+      settings.increments = 64;
+      ASSERT_EQ(march(problem, history, other, settings).status, FrictionStatus::converged);
+      const double apart = std::abs(state.dissipation - other.dissipation);
+      EXPECT_LE(apart, report.loss_error.value);
+      if (std::isnan(report.loss_error.extrapolated)) { continue; }
+      ++known;
+      EXPECT_LT(std::abs(report.loss_error.extrapolated - other.dissipation), apart);
+   }
+   EXPECT_GE(known, 1);
 }
 
 /// What is exact says so, and what is not asked for is not known.

@@ -322,6 +322,27 @@ TEST(ReducedFile, RefusesAProblemThatKeepsARigidMotionToItself)
    expect_input_error([&] { load_reduced_problem(file); }, says);
 }
 
+/// Places in space and the rim of a surface come back; a file of before has neither, and is as
+/// it was for lines.
+TEST(ReducedFile, KeepsPlacesInSpaceAndTheRim)
+{
+   const std::string file = ::testing::TempDir() + "reduced_file_surface.json";
+   ReducedProblem problem = shakedown_test::random_contact(1, 3, 2, false);
+   save(problem, file);
+   EXPECT_EQ(content(file).find("rim"), std::string::npos);
+   EXPECT_TRUE(load_reduced_problem(file).rim.empty());
+   problem.position = Eigen::Matrix3d{{1, 2, 3}, {4, 5, 6}, {7, 8, 10}};
+   problem.rim = {0, 2};
+   save(problem, file);
+   const ReducedProblem again = load_reduced_problem(file);
+   EXPECT_EQ(again.position, problem.position);
+   EXPECT_EQ(again.rim, problem.rim);
+   nlohmann::json j = nlohmann::json::parse(content(file));
+   j["rim"] = {0.5};
+   std::ofstream(file) << j;
+   expect_input_error([&] { load_reduced_problem(file); }, "a node of the rim is 0.5");
+}
+
 TEST(ReducedFile, RefusesWhatItDidNotWrite)
 {
    const std::string file = ::testing::TempDir() + "reduced_file_test_bad.json";
@@ -385,7 +406,7 @@ TEST(ReducedFile, RefusesWhatIsNoProblem)
       });
    refused("a load pattern has an empty name",
            [](ReducedProblem &p) { p.patterns[1].name = ""; });
-   refused("position", [](ReducedProblem &p) { p.position = Eigen::MatrixXd::Ones(5, 3); });
+   refused("position", [](ReducedProblem &p) { p.position = Eigen::MatrixXd::Ones(5, 4); });
    refused("dofs", [](ReducedProblem &p) { p.dofs = Eigen::MatrixXi::Zero(5, 3); });
    refused("two load patterns are named 'press'",
            [](ReducedProblem &p) { p.patterns[2].name = "press"; });

@@ -2,6 +2,7 @@
 
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
@@ -103,6 +104,47 @@ TEST(ReducedProblem, ANodeThatOpensAloneIsRefusedWhateverRoundOffLeftOfItsStiffn
    EXPECT_NO_THROW(problem.validate());
 }
 
+/// Springs between all nodes of a body that is free to translate: the sought motions span the
+/// stated ones, for few rows (by pivots) and many (by inverse iteration), and what is not
+/// stated, or resisted, is named.
+TEST(ReducedProblem, RigidMotionsAreSoughtOrHandedOver)
+{
+   for (const Eigen::Index n : {4, 150})
+   {
+      Eigen::MatrixXd springs =
+         n * Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Ones(n, n);
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         // Unlike nodes, which are still held by nothing.
+         springs.row(i) *= 1 + 0.5 * std::sin(i);
+         springs.col(i) *= 1 + 0.5 * std::sin(i);
+      }
+      const Eigen::VectorXd free =
+         Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i)
+                                      { return 1 / (1 + 0.5 * std::sin(i)); })
+            .normalized();
+      ReducedProblem problem;
+      problem.set_stiffness(springs, Eigen::MatrixXd::Zero(n, n), springs);
+      ASSERT_EQ(problem.rigid_motions.cols(), 2) << n;
+      Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(2 * n, 2);
+      motions.col(0).head(n) = free;
+      motions.col(1).tail(n) = free;
+      const Eigen::MatrixXd &Z = problem.rigid_motions;
+      EXPECT_LT((motions - Z * (Z.transpose() * motions)).norm(), 1e-12);
+      motions.col(1) = 3 * motions.col(0) - 2 * motions.col(1);
+      complete(problem, motions);
+      EXPECT_LT((motions - Z * (Z.transpose() * motions)).norm(), 1e-12);
+      EXPECT_NO_THROW(problem.validate());
+      expect_input_error([&] { complete(problem, motions.leftCols(1)); },
+                         "it states 1 rigid motions, and the stiffness does not resist 2");
+      expect_input_error([&] { complete(problem, motions.topRows(n)); }, "must have");
+      motions.col(1) = 2 * motions.col(0);
+      expect_input_error([&] { complete(problem, motions); }, "not independent");
+      motions.col(1) = Eigen::VectorXd::Unit(2 * n, 0);
+      expect_input_error([&] { complete(problem, motions); }, "a rigid motion meets forces");
+   }
+}
+
 TEST(ReducedProblem, SaysWhichSizeIsWrong)
 {
    const auto refused =
@@ -142,7 +184,7 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
    refused("diagonal of A is 0 at row 1", [](auto &p) { p.A() << 1, 0, 0, 0; });
    refused("dofs is 2×3", [](auto &p) { p.dofs = Eigen::MatrixXi::Zero(2, 3); });
    refused("dofs is 1×2", [](auto &p) { p.dofs = Eigen::MatrixXi::Zero(1, 2); });
-   refused("position is 2×3", [](auto &p) { p.position = MatrixXd::Zero(2, 3); });
+   refused("position is 2×4", [](auto &p) { p.position = MatrixXd::Zero(2, 4); });
    refused("position is 3×2", [](auto &p) { p.position = MatrixXd::Zero(3, 2); });
    refused("H is 1×2", [](auto &p) { p.H = MatrixXd::Zero(1, 2); });
    refused("two load patterns are named 'press'",

@@ -1,3 +1,5 @@
+#include "half_space_contacts.hpp"
+
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
 #include <gtest/gtest.h>
@@ -179,6 +181,35 @@ TEST(FrictionLimit, DiscOfOneSpringIsHalfTheLargestDistance)
    EXPECT_NEAR(load.limit, 0.5 * 10 / 2.5, 1e-6);
    EXPECT_NEAR(load.slip[0], -1.5 * load.limit, 1e-4);
    EXPECT_NEAR(load.slip[1], -2.0 * load.limit, 1e-4);
+}
+
+/// A flat punch of 69 squares, shear there and back. Of equal bodies slip leaves the pressure
+/// alone, and by symmetry no residual helps: the node whose shear first exhausts its friction
+/// decides. Of a rigid one it does, and plain arithmetic and weak duality prove the limit.
+TEST(LoadLimit, OfAPunchOnAHalfSpace)
+{
+   const double f = 0.3;
+   const Material material{2.6, 0.3};
+   for (const bool rigid : {false, true})
+   {
+      HalfSpace punch =
+         cattaneo_test::contact_of(material, rigid ? std::nullopt : std::optional(material), 1,
+                                   cattaneo_test::cells(9, 1, 4.5));
+      punch.ends = true;
+      ReducedProblem problem = punch.problem(Eigen::VectorXd::Zero(punch.centres.rows()));
+      ASSERT_EQ(problem.nodes(), 69);
+      set_friction(problem, f);
+      const LoadCycle cycle =
+         LoadCycle::through(problem, {{"P", 1}}, {{{"Q1", 1}}, {{"Q1", -1}}});
+      const LimitReport report = load_limit(limit_problem(problem, cycle));
+      ASSERT_EQ(report.status, LimitStatus::certified) << report.message;
+      const StuckForces stuck = stuck_forces(problem, cycle);
+      const Eigen::VectorXd shear =
+         stuck.q1.col(0).head(69).cwiseAbs2() + stuck.q1.col(0).tail(69).cwiseAbs2();
+      const double first = f * (stuck.p0.col(0).array() / shear.array().sqrt()).minCoeff();
+      if (!rigid) { EXPECT_NEAR(report.limit, first, 1e-6 * first); }
+      EXPECT_LE(report.limit, f * (1 + 1e-9)); // all slides
+   }
 }
 
 TEST(Limit, DegenerateCasesHaveStatusesAndMessages)

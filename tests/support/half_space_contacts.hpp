@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/halfplane/half_space.hpp>
 #include <vector>
@@ -32,6 +33,20 @@ cattaneo::MarchReport marched(const cattaneo::ReducedProblem &problem,
 /// A rigid sphere and a half-space, CONTACT's example "spence35": 45 cells along each side from
 /// -4.4999 on, of which those within a radius may touch. The others stay open and say nothing.
 cattaneo::ReducedProblem kalkers_spence(double radius);
+
+/// How many dense factors increments took, by the counters after each.
+struct FactorsOfIncrements
+{
+   long most = 0, all = 0, increments = 0;
+   void note(const cattaneo::Counters &counters)
+   {
+      const long taken = counters.dense_factorisations - all;
+      most = std::max(most, taken);
+      all = counters.dense_factorisations;
+      ++increments;
+   }
+   double mean() const { return static_cast<double>(all) / static_cast<double>(increments); }
+};
 
 /** Two equal spheres of shear modulus 1 and ν = 0 that touch in r < a = 1, pressed and sheared
     there and back. Hertz' approach a²/R; Cattaneo's and Mindlin's stick radius c = a (1-s)^⅓, s

@@ -3,6 +3,7 @@
 #include <cattaneo/algebra/one_thread.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cmath>
+#include <limits>
 
 namespace cattaneo
 {
@@ -100,6 +101,12 @@ MatrixXd DenseCholesky::inverse() const
 }
 
 #endif
+
+double DenseCholesky::smallest_pivot() const
+{
+   return factor_.rows() == 0 ? std::numeric_limits<double>::infinity()
+                              : factor_.diagonal().cwiseAbs2().minCoeff();
+}
 
 MatrixXd DenseCholesky::solved(MatrixXd x) const
 {

@@ -1,7 +1,10 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/semidefinite.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <random>
 #include <vector>
 
 namespace cattaneo
@@ -63,28 +66,72 @@ Eigen::MatrixXd SemidefiniteSolver::solve(const Eigen::MatrixXd &rhs) const
    return scale_.asDiagonal() * x;
 }
 
-Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
+namespace
 {
-   const Eigen::Index n = A.rows();
-   const Eigen::VectorXd scale = scale_of(A);
-   const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+
+/// A motion of a matrix of unit diagonal that meets more energy is no candidate for one that
+/// meets none.
+constexpr double soft_energy = 1e-5;
+
+/// The motions of little energy of a large matrix of unit diagonal, orthonormal columns, by
+/// inverse iteration from random ones. None if it is small, not semidefinite, or has more of
+/// them than a few.
+std::optional<Eigen::MatrixXd> few_soft_motions(const Eigen::MatrixXd &scaled)
+{
+   constexpr Eigen::Index most = 16, large = 256;
+   const Eigen::Index n = scaled.rows();
+   if (n < large) { return std::nullopt; }
+   // 1. What meets nothing is multiplied by a thousand million in each iteration, what is
+   // stiff by a hundred thousand at most.
+   Eigen::MatrixXd raised = scaled;
+   raised.diagonal().array() += 1e-9;
+   DenseCholesky factor;
+   if (!factor.compute(std::move(raised))) { return std::nullopt; }
+   std::mt19937_64 random(1);
+   std::uniform_real_distribution<double> uniform(-1, 1);
+   Eigen::MatrixXd X = Eigen::MatrixXd::NullaryExpr(n, most, [&] { return uniform(random); });
+   for (int k = 0; k < 3; ++k) { X = thin_qr(factor.solved(std::move(X))).Q; }
+   // 2. They are all there if stiff ones are among them too.
+   const SymmetricModes modes = symmetric_modes(X.transpose() * (scaled * X));
+   const Eigen::Index count = (modes.values.array() <= soft_energy).count();
+   if (count > most / 2) { return std::nullopt; }
+   return X * modes.vectors.leftCols(count);
+}
+
+/// The same of any matrix, by pivoted LDLᵀ.
+Eigen::MatrixXd soft_motions(const Eigen::MatrixXd &scaled)
+{
+   const Eigen::Index n = scaled.rows();
    const Eigen::LDLT<Eigen::MatrixXd> ldlt(scaled);
    Eigen::MatrixXd soft(n, 0);
    for (Eigen::Index k = 0; k < n; ++k)
    {
-      // Candidates are motions of little energy; a pivot is the energy of the motion that is 1
-      // at the pivot, where a rotation about a point nearby hardly moves.
-      if (ldlt.vectorD()[k] > 1e-5) { continue; }
+      // A pivot is the energy of the motion that is 1 at the pivot, where a rotation about a
+      // point nearby hardly moves.
+      if (ldlt.vectorD()[k] > soft_energy) { continue; }
       Eigen::VectorXd motion = Eigen::VectorXd::Unit(n, k);
       ldlt.matrixU().solveInPlace(motion);
       soft.conservativeResize(Eigen::NoChange, soft.cols() + 1);
       soft.rightCols(1) = ldlt.transpositionsP().transpose() * motion.normalized();
    }
-   if (soft.cols() == 0) { return soft; }
-   // They are as exact as what was eliminated before their pivots. A motion z that meets
-   // nothing has (A + Q Qᵀ) z = Q Qᵀ z: one solution leaves round-off of it.
-   Eigen::MatrixXd Q = thin_qr(soft).Q;
-   Q = thin_qr((scaled + Q * Q.transpose()).ldlt().solve(Q)).Q;
+   return soft.cols() == 0 ? soft : thin_qr(soft).Q;
+}
+
+} // namespace
+
+Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
+{
+   const Eigen::Index n = A.rows();
+   const Eigen::VectorXd scale = scale_of(A);
+   const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+   const std::optional<Eigen::MatrixXd> few = few_soft_motions(scaled);
+   Eigen::MatrixXd Q = few ? *few : soft_motions(scaled);
+   if (Q.cols() == 0) { return Q; }
+   // They are as exact as what was eliminated before them. A motion z that meets nothing has (A
+   // + Q Qᵀ) z = Q Qᵀ z: one solution leaves round-off of it.
+   const Eigen::MatrixXd held = scaled + Q * Q.transpose();
+   DenseCholesky factor;
+   Q = thin_qr(factor.compute(held) ? factor.solved(Q) : held.ldlt().solve(Q)).Q;
    Q *= symmetric_modes(Q.transpose() * scaled * Q).vectors;
    std::vector<Eigen::Index> resting;
    for (Eigen::Index k = 0; k < Q.cols(); ++k)
@@ -93,6 +140,20 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
    }
    if (resting.empty()) { return Eigen::MatrixXd(n, 0); }
    return thin_qr(scale.asDiagonal() * Q(Eigen::all, resting)).Q;
+}
+
+bool resists_all_but(const Eigen::MatrixXd &A, const Eigen::MatrixXd &motions)
+{
+   const Eigen::VectorXd scale = scale_of(A);
+   Eigen::MatrixXd held = scale.asDiagonal() * A * scale.asDiagonal();
+   if (motions.cols() > 0)
+   {
+      const Eigen::MatrixXd Q = thin_qr(scale.cwiseInverse().asDiagonal() * motions).Q;
+      held += Q * Q.transpose();
+   }
+   // A motion that is left makes a pivot round-off.
+   DenseCholesky factor;
+   return factor.compute(std::move(held)) && factor.smallest_pivot() > soft_energy;
 }
 
 } // namespace cattaneo

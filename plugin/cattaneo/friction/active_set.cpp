@@ -52,11 +52,6 @@ Index ask_for_states(Increment &at)
       const ContactNode node = at.node(i);
       const NodeState next =
          wanted_state(node, at.status[i], tiny_normal, at.round_off_along(tiny, i));
-      // Without friction anywhere a node keeps this name, and has no tangential unknowns.
-      if (next == NodeState::slip && at.system.disc())
-      {
-         at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
-      }
       const bool other_state = next != at.status[i];
       at.status[i] = next;
       if (changes_piece(at, i, tiny_normal) || other_state) { ++changed; }

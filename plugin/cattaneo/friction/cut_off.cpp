@@ -9,6 +9,14 @@ using Eigen::Index;
 std::string CutOffContact::message() const
 {
    std::ostringstream text;
+   if (chain < 0)
+   {
+      text << "contact is compressed up to the rim of its surface (node " << node << " at ("
+           << x << ", " << y << "), time " << time
+           << ") although the bodies go on beyond it: forces and areas are wrong there, name "
+              "more of the surface as contact";
+      return text.str();
+   }
    text
       << "contact is compressed up to the " << (at_first ? "first" : "last")
       << " node of piece " << chain + 1 << " of the line '" << interface << "' (node " << node
@@ -23,6 +31,16 @@ std::vector<CutOffContact> cut_off_contact(const ReducedProblem &problem,
 {
    std::vector<CutOffContact> found;
    const double compressed = problem.nodes() ? 1e-9 * state.p.maxCoeff() : 0.0;
+   const auto note = [&](CutOffContact here)
+   {
+      if (problem.position.rows() == problem.nodes())
+      {
+         here.x = problem.position(here.node, 0);
+         here.y = problem.position(here.node, 1);
+      }
+      here.time = state.time;
+      found.push_back(std::move(here));
+   };
    for (std::size_t c = 0; c < problem.chains.size(); ++c)
    {
       const ContactChain &chain = problem.chains[c];
@@ -40,15 +58,18 @@ std::vector<CutOffContact> cut_off_contact(const ReducedProblem &problem,
          here.chain = static_cast<Index>(c);
          here.node = node;
          here.at_first = end == 0;
-         if (problem.position.rows() == problem.nodes())
-         {
-            here.x = problem.position(node, 0);
-            here.y = problem.position(node, 1);
-         }
-         here.time = state.time;
-         found.push_back(here);
+         note(here);
       }
    }
+   // Of a surface the place that is wrong the most.
+   CutOffContact rim;
+   rim.chain = rim.node = -1;
+   for (const Index node : problem.rim)
+   {
+      const bool bears = closed(state.status[node]) && state.p[node] > compressed;
+      if (bears && (rim.node < 0 || state.p[node] > state.p[rim.node])) { rim.node = node; }
+   }
+   if (rim.node >= 0) { note(rim); }
    return found;
 }
 

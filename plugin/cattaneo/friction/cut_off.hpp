@@ -7,18 +7,24 @@
 namespace cattaneo
 {
 
-/// Compressed contact that reaches an end of its line although nothing of the bodies ends
-/// there.
+/// Compressed contact that reaches an end of its line, or the rim of its surface, although
+/// nothing of the bodies ends there.
 struct CutOffContact
 {
    std::string interface;  ///< name of the line's
-   Eigen::Index chain = 0; ///< in the problem's list
-   Eigen::Index node = 0;  ///< the last of the chain at that end
+   Eigen::Index chain = 0; ///< in the problem's list; -1: the rim of a surface
+   Eigen::Index node = 0;  ///< the last of the chain at that end; of a rim the most compressed
    bool at_first = false;  ///< it is the first node of the chain, else the last
    double x = 0;           ///< of the node, 0 if the problem has no positions
    double y = 0;           ///< likewise
    double time = 0;        ///< of the state
 
+   /// At the same end, or at a rim too?
+   bool same_place(const CutOffContact &other) const
+   {
+      return chain == other.chain &&
+             (chain < 0 || (node == other.node && at_first == other.at_first));
+   }
    /// What is wrong and what to do, without a full stop.
    std::string message() const;
 };
@@ -27,7 +33,8 @@ struct CutOffContact
     it *both* bodies go on smoothly (ContactChain::ends, other_ends), so that contact would go
     on too if the line did. Forces, and zones near that end, are then wrong without any other
     sign: a part of the boundary was named too short, or a pad rolled off its line. At corners
-    contact may well end. Nothing can be said of ends that are not known. */
+    contact may well end. Nothing can be said of ends that are not known. On a surface a node of
+    ReducedProblem::rim is compressed. */
 std::vector<CutOffContact> cut_off_contact(const ReducedProblem &problem,
                                            const ContactState &state);
 

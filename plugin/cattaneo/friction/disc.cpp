@@ -28,7 +28,6 @@ bool DiscEquations::eliminate_open(Increment &at)
    if (is_open_ == is_open) { return !singular_; }
    is_open_ = is_open;
    origin_ = {};
-   factored_.clear();
    slipping_.clear();
    open_.clear();
    closed_.clear();
@@ -346,17 +345,52 @@ bool DiscEquations::solve(Increment &at)
    return true;
 }
 
+namespace
+{
+
+/// Takes the states in which the natural map has the nodes, and their directions of slip. A
+/// node that closes slips if it has moved along: to stick first is what sends Newton's steps
+/// round in a circle. @return how many nodes changed their state
+Index take_natural_states(Increment &at)
+{
+   const FrictionSystem &s = at.system;
+   // Violations that change nothing.
+   const VectorXd tiny =
+      (0.5 * at.round_off()).cwiseMax(0.1 * s.settings.tolerance * at.reference);
+   Index changed = 0;
+   for (Index i = 0; i < s.n; ++i)
+   {
+      const ContactNode node = at.node(i);
+      const NodeState now = at.status[i];
+      const double apart = node.kn * node.gap - node.p, along = at.round_off_along(tiny, i);
+      NodeState next = NodeState::separation;
+      if (closed(now) ? apart <= tiny[s.m(i)] : apart < -tiny[s.m(i)])
+      {
+         next = friction_state(node, slips(now) ? -along : along);
+      }
+      if (next == NodeState::slip)
+      {
+         at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
+      }
+      changed += next != now;
+      at.status[i] = next;
+   }
+   return changed;
+}
+
+} // namespace
+
 bool newton_in_the_disc(Increment &at)
 {
    at.system.disc_equations.begin();
-   ask_for_states(at); // finds the directions
+   take_natural_states(at);
    double best = std::numeric_limits<double>::infinity();
    int patience = 8;
    for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
    {
       if (!solve_for_states(at)) { return false; }
       const bool small = at.residuals();
-      if (ask_for_states(at) == 0 && small && at.ends_here()) { return true; }
+      if (take_natural_states(at) == 0 && small && at.ends_here()) { return true; }
       const double size = std::max(at.report.residual_normal, at.report.residual_tangential);
       if (size < 0.5 * best)
       {

@@ -90,6 +90,11 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
    return lost;
 }
 
+double friction_work(const ContactState &before, const ContactState &after)
+{
+   return -0.5 * (before.q + after.q).dot(after.v - before.v);
+}
+
 RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const ContactState &before,
                                      const ContactState &after, Index node, double by_way,
                                      double by_from, double by_to)

@@ -135,7 +135,8 @@ void explain_failure(Increment &at)
    {
       report.status =
          mechanism.slides ? FrictionStatus::gross_sliding : FrictionStatus::no_solution;
-      message << (mechanism.spins
+      // The second tangent runs about an axis, but on a surface in space.
+      message << (mechanism.spins && s.problem.position.cols() < 3
                      ? "the torque exceeds what friction can hold: a body spins about its axis"
                   : mechanism.slides ? "the loads exceed what friction can hold: a body slides"
                                      : "the loads pull the contact apart: a body lifts off");

@@ -104,6 +104,7 @@ double MarchRecord::add_energies(const ContactState &next, const LoadPiece &piec
                 normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
    // 1. The row and, of a cycle, its record, which the state has.
    row_.dissipation += dissipation;
+   row_.friction_work += friction_work(state_, next);
    row_.external_work += work;
    if (piece.cycle > 0)
    {
@@ -190,8 +191,7 @@ void MarchRecord::find_cut_off()
    {
       const bool known =
          std::any_of(report.cut_off.begin(), report.cut_off.end(),
-                     [&](const CutOffContact &other)
-                     { return other.node == found.node && other.at_first == found.at_first; });
+                     [&](const CutOffContact &other) { return other.same_place(found); });
       if (!known) { report.cut_off.push_back(found); }
    }
 }
@@ -202,6 +202,7 @@ void MarchRecord::end_row()
    IncrementRecord record = record_of(problem_, state_);
    record.cycle = row_.cycle;
    record.dissipation = row_.dissipation;
+   record.friction_work = row_.friction_work;
    record.external_work = row_.external_work;
    record.residual_normal = row_.residual_normal;
    record.residual_tangential = row_.residual_tangential;

@@ -135,6 +135,7 @@ NearContact::NearContact(const ReducedProblem &whole, const SymmetricProduct &ti
       for (const Index i : nodes_)
       {
          rows_.push_back(component * n + i);
+         if (component < whole.components()) { slips_.push_back(rows_.back()); }
          place_.push_back(place[rows_.back()]);
       }
    }
@@ -216,11 +217,11 @@ std::optional<ContactState> NearContact::part(const ContactState &whole)
 {
    if (!correct(whole)) { return std::nullopt; }
    ContactState part;
-   part.v = whole.v(nodes_);
+   part.v = whole.v(slips_);
    part.w = whole.w(nodes_);
-   part.q = whole.q(nodes_);
+   part.q = whole.q(slips_);
    part.p = whole.p(nodes_);
-   part.slip_origin = whole.slip_origin(nodes_);
+   part.slip_origin = whole.slip_origin(slips_);
    for (const Index i : nodes_) { part.status.push_back(whole.status[i]); }
    part.multipliers = loads(whole.multipliers);
    part.time = whole.time;
@@ -246,11 +247,11 @@ ContactState NearContact::whole(const ContactState &before, const ContactState &
    next.v = placed.head(whole_.slips());
    next.w = placed.tail(whole_.nodes());
    // To the last bit, as where round-off must not look like slip.
-   next.v(nodes_) = part.v;
+   next.v(slips_) = part.v;
    next.w(nodes_) = part.w;
    next.q.setZero();
    next.p.setZero();
-   next.q(nodes_) = part.q;
+   next.q(slips_) = part.q;
    next.p(nodes_) = part.p;
    std::fill(next.status.begin(), next.status.end(), NodeState::separation);
    for (std::size_t k = 0; k < nodes_.size(); ++k) { next.status[nodes_[k]] = part.status[k]; }
@@ -268,7 +269,7 @@ FrictionSolver &NearContact::solver(const FrictionSettings &settings)
 
 NearContacts::NearContacts(FrictionSolver &solver)
    : solver_(solver), problem_(solver.problem()),
-     worthwhile_(problem_.nodes() >= many_nodes && problem_.components() == 1 &&
+     worthwhile_(problem_.nodes() >= many_nodes && problem_.components() > 0 &&
                  !solver.frictionless() &&
                  solver.settings().method != FrictionMethod::gauss_seidel)
 {

@@ -126,6 +126,21 @@ std::vector<std::array<long, 2>> cells_of(const HalfSpace &contact)
    return cells;
 }
 
+/// Cells that lack one of their four neighbours.
+std::vector<Index> rim_of(const std::vector<std::array<long, 2>> &cells)
+{
+   const std::set<std::array<long, 2>> all(cells.begin(), cells.end());
+   std::vector<Index> rim;
+   for (std::size_t i = 0; i < cells.size(); ++i)
+   {
+      const auto [x, y] = cells[i];
+      const std::size_t neighbours = all.count({x - 1, y}) + all.count({x + 1, y}) +
+                                     all.count({x, y - 1}) + all.count({x, y + 1});
+      if (neighbours < 4) { rim.push_back(static_cast<Index>(i)); }
+   }
+   return rim;
+}
+
 /** Flexibility of nodal forces: rows and columns of the n first tangents, then of the second
     ones, then of the normals. Rectangles that lie the same way from each other have the same
     influence, which is integrated once; with the opposite way it is the transposed one, so that
@@ -271,11 +286,26 @@ ReducedProblem HalfSpace::problem(const VectorXd &gap) const
    result.gap = gap;
    result.friction = VectorXd::Zero(n);
    result.weights = VectorXd::Constant(n, size.prod());
-   result.position = centres;
+   result.position = MatrixXd::Zero(n, 3);
+   result.position.leftCols(2) = centres;
+   if (!ends) { result.rim = rim_of(cells_of(*this)); }
    result.rigid_motions = thin_qr(motions).Q;
    join_coupling(result);
    result.validate();
    return result;
+}
+
+Eigen::Matrix<double, 6, 1> HalfSpace::resultant(const VectorXd &forces) const
+{
+   validate();
+   const Index n = centres.rows();
+   require(forces.size() == 3 * n, "half-space: ", forces.size(), " nodal forces, must be ",
+           3 * n, ", three for each rectangle");
+   const auto q1 = forces.head(n), q2 = forces.segment(n, n), p = forces.tail(n);
+   const auto x = centres.col(0), y = centres.col(1);
+   Eigen::Matrix<double, 6, 1> sum;
+   sum << q1.sum(), q2.sum(), p.sum(), y.dot(p), -x.dot(p), x.dot(q2) - y.dot(q1);
+   return sum;
 }
 
 Eigen::MatrixX3d HalfSpace::displacements(const Eigen::MatrixX2d &points,

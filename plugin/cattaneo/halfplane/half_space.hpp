@@ -26,6 +26,9 @@ struct HalfSpace
    Eigen::MatrixX2d centres;
    /// Is the body above free to turn about the normal through x = y = 0? It never tilts.
    bool turns = false;
+   /// Does a body end at the rim of the rectangles, as a flat punch does? Else contact that is
+   /// compressed there is cut off, and reports say so.
+   bool ends = false;
 
    /// InputError for a material that is none or of plane stress, edges that are not positive,
    /// or rectangles that do not lie on one grid, to 1e-9 of an edge, or are there twice.
@@ -33,7 +36,8 @@ struct HalfSpace
 
    /** The frictional contact of these bodies with a gap of each rectangle (size n), measured at
        its centre, without friction until set_friction(). It has two tangential components,
-       areas as weights and centres as positions.
+       areas as weights, centres as positions (n × 3, z = 0), and unless a body `ends` there
+       the rectangles that lack one of four neighbours as rim.
 
        The body above goes where its far forces take it. Patterns "P" (towards the other body),
        "Q1" and "Q2" (along x and y) have a unit force each, and, if it `turns`, "T" a unit
@@ -54,6 +58,11 @@ struct HalfSpace
        validate(), or for other sizes. */
    Eigen::MatrixX3d displacements(const Eigen::MatrixX2d &points,
                                   const Eigen::VectorXd &forces) const;
+
+   /// Force and moment about x = y = 0, along x, y and z, that nodal forces {q; p} of the
+   /// rectangles (size 3n) are on the body above. InputError as of validate(), or for another
+   /// size.
+   Eigen::Matrix<double, 6, 1> resultant(const Eigen::VectorXd &forces) const;
 
    /** Stresses at points (m × 3) inside of the bodies under nodal forces {q; p} of the
        rectangles (size 3n): m × 6, xx, yy, zz, yz, zx and xy, positive in tension. Points with

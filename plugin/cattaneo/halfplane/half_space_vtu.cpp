@@ -45,7 +45,7 @@ void write_vtu(const std::string &file, const HalfSpace &contact, const ReducedP
 {
    contact.validate();
    const Index n = contact.centres.rows();
-   require(problem.position.rows() == n && problem.position == contact.centres &&
+   require(problem.position.rows() == n && problem.position.leftCols(2) == contact.centres &&
               problem.components() == 2,
            "VTU file '", file, "': the reduced problem is not that of the half-spaces");
    state.validate(problem);

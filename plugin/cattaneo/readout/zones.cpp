@@ -14,10 +14,11 @@ using Eigen::VectorXd;
 
 VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 {
-   require(problem.weights.size() == nodal_forces.size(), "tractions: ", nodal_forces.size(),
-           " nodal forces for ", problem.weights.size(), " weights");
-   return (problem.weights.array() > 0)
-      .select(nodal_forces.cwiseQuotient(problem.weights), VectorXd::Zero(nodal_forces.size()));
+   const Index n = problem.weights.size(), count = nodal_forces.size();
+   require(n > 0 && count % n == 0, "tractions: ", count, " nodal forces for ", n, " weights");
+   const VectorXd weights = problem.weights.replicate(count / n, 1);
+   return (weights.array() > 0)
+      .select(nodal_forces.cwiseQuotient(weights), VectorXd::Zero(count));
 }
 
 namespace

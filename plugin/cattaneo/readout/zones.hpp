@@ -81,8 +81,9 @@ std::vector<Zone> contact_zones(const std::vector<Zone> &zones);
 /// The widest of them; first > last if all nodes are apart.
 Zone contact_zone(const ReducedProblem &problem, const ContactState &state);
 
-/// Tractions (force over consistent weight) of nodal forces of one component, size n. Zero
-/// where the weight is zero (the axis node of quadratic axisymmetric elements).
+/// Tractions (force over consistent weight) of nodal forces of one component or more, all nodes
+/// of the first one, then of the next: p of size n, q of size c·n. Zero where the weight is
+/// zero (the axis node of quadratic axisymmetric elements).
 Eigen::VectorXd tractions(const ReducedProblem &problem, const Eigen::VectorXd &nodal_forces);
 
 } // namespace cattaneo

@@ -104,10 +104,7 @@ std::vector<ContactChain> found_chains(const Eigen::VectorXd &arc_length, Eigen:
 void require_all_motions(const ReducedProblem &problem)
 {
    require_semidefinite(problem);
-   const Eigen::Index stated = problem.rigid_motions.cols(), all = null_space(problem.K).cols();
-   require(all <= stated, "reduced problem: it states ", stated,
-           " rigid motions, and the stiffness does not resist ", all,
-           ", all of them must be stated (complete() seeks them)");
+   require_all_motions_stated(problem);
 }
 
 } // namespace
@@ -158,6 +155,8 @@ void save(const ReducedProblem &problem, const std::string &file)
                              {"bodies", chain.bodies}});
    }
    j["rigid_motions"] = to_json(problem.rigid_motions);
+   // Of surfaces alone, so that files of lines are as they were.
+   if (!problem.rim.empty()) { j["rim"] = problem.rim; }
    write_whole(file, j.dump() + '\n');
 }
 
@@ -192,7 +191,10 @@ ReducedProblem load_reduced_problem(const std::string &file)
       std::vector<std::string> keys = {"format",   "A",        "B",        "C",
                                        "H",        "gap",      "friction", "weights",
                                        "patterns", "position", "dofs",     "arc_length"};
-      if (!first) { keys.insert(keys.end(), {"coupled", "held", "chains", "rigid_motions"}); }
+      if (!first)
+      {
+         keys.insert(keys.end(), {"coupled", "held", "chains", "rigid_motions", "rim"});
+      }
       if (with_laws) { keys.emplace_back("laws"); }
       require_known_keys(j, keys,
                          "file '" + file + "' of '" + j.at("format").get<std::string>() + "'");
@@ -238,6 +240,12 @@ ReducedProblem load_reduced_problem(const std::string &file)
             require(row.is_number_integer(), "reduced problem: a held row is ", row.dump(),
                     ", must be a whole number");
             problem.held.push_back(row);
+         }
+         for (const nlohmann::json &node : j.value("rim", nlohmann::json::array()))
+         {
+            require(node.is_number_integer(), "reduced problem: a node of the rim is ",
+                    node.dump(), ", must be a whole number");
+            problem.rim.push_back(node);
          }
          for (const nlohmann::json &c : j.at("chains"))
          {

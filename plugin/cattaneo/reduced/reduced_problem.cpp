@@ -125,6 +125,17 @@ void check_vector(const char *name, const Eigen::VectorXd &x, Eigen::Index size)
    }
 }
 
+/// Does nothing resist the rigid motions?
+void check_motions(const ReducedProblem &problem)
+{
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
+   if (Z.cols() == 0) { return; }
+   const double resisted =
+      (problem.K * Z).cwiseAbs().maxCoeff() / problem.K.cwiseAbs().maxCoeff();
+   require(resisted <= 1e-11, "reduced problem: a rigid motion meets forces of ", resisted,
+           " of the stiffness, must meet none (1e-11)");
+}
+
 /// What the upper half knew: chains, rigid motions, held components.
 void check_facts(const ReducedProblem &problem)
 {
@@ -181,11 +192,7 @@ void check_facts(const ReducedProblem &problem)
    require(Z.allFinite(), "reduced problem: a rigid motion has an entry that is not finite");
    require((Z.transpose() * Z).isIdentity(1e-9),
            "reduced problem: the rigid motions are not orthonormal");
-   if (Z.cols() == 0) { return; }
-   const double resisted =
-      (problem.K * Z).cwiseAbs().maxCoeff() / problem.K.cwiseAbs().maxCoeff();
-   require(resisted <= 1e-11, "reduced problem: a rigid motion meets forces of ", resisted,
-           " of the stiffness, must meet none (1e-11)");
+   check_motions(problem);
 }
 
 /// Of the pieces of a polyline from (0, 0).
@@ -326,13 +333,19 @@ void ReducedProblem::validate() const
               ", must be positive");
    }
    if (arc_length.size() > 0) { check_vector("arc_length", arc_length, n); }
-   require(position.size() == 0 || (position.rows() == n && position.cols() == 2),
+   require(position.size() == 0 ||
+              (position.rows() == n && (position.cols() == 2 || position.cols() == 3)),
            "reduced problem: position is ", position.rows(), "×", position.cols(), ", must be ",
-           n, "×2");
+           n, "×2 or ", n, "×3");
    require(position.allFinite(), "reduced problem: position has an entry that is not finite");
    require(dofs.size() == 0 || (dofs.rows() == n && dofs.cols() % 2 == 0),
            "reduced problem: dofs is ", dofs.rows(), "×", dofs.cols(), ", must have ", n,
            " rows and two columns for each body");
+   for (const Eigen::Index node : rim)
+   {
+      require(node >= 0 && node < n, "reduced problem: node ", node,
+              " of the rim, must be from 0 to ", n - 1);
+   }
    check_facts(*this);
 }
 
@@ -360,6 +373,38 @@ void complete(ReducedProblem &problem)
 {
    join_coupling(problem);
    problem.rigid_motions = null_space(problem.K);
+}
+
+void complete(ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions)
+{
+   join_coupling(problem);
+   require(rigid_motions.rows() == problem.K.rows() || rigid_motions.cols() == 0,
+           "reduced problem: rigid motions have ", rigid_motions.rows(), " rows, must have ",
+           problem.K.rows());
+   require(rigid_motions.allFinite(),
+           "reduced problem: a rigid motion has an entry that is not finite");
+   problem.rigid_motions = Eigen::MatrixXd(problem.K.rows(), 0);
+   if (rigid_motions.cols() > 0)
+   {
+      const Eigen::MatrixXd unit = rigid_motions.colwise().normalized();
+      const ThinQR basis = thin_qr(unit);
+      constexpr double independent = 1e-10;
+      require(basis.R.diagonal().cwiseAbs().minCoeff() > independent &&
+                 basis.R.rows() == unit.cols(),
+              "reduced problem: the rigid motions are not independent of each other");
+      problem.rigid_motions = basis.Q;
+   }
+   check_motions(problem);
+   require_all_motions_stated(problem);
+}
+
+void require_all_motions_stated(const ReducedProblem &problem)
+{
+   if (resists_all_but(problem.K, problem.rigid_motions)) { return; }
+   const Eigen::Index stated = problem.rigid_motions.cols(), all = null_space(problem.K).cols();
+   require(all <= stated, "reduced problem: it states ", stated,
+           " rigid motions, and the stiffness does not resist ", all,
+           ", all of them must be stated (complete() seeks them)");
 }
 
 void join_coupling(ReducedProblem &problem)

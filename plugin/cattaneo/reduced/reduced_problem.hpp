@@ -86,7 +86,8 @@ struct ReducedProblem
    Eigen::VectorXd weights; ///< consistent weight ∫φ_i of each node: traction = force / weight
 
    Eigen::VectorXd arc_length; ///< coordinate of each node along the contact line
-   Eigen::MatrixXd position;   ///< n × 2, coordinates of each node (of body 1)
+   /// Coordinates of each node (of body 1): n × 2 of a line, n × 3 of a surface in space.
+   Eigen::MatrixXd position;
 
    /// n × 2k: true dofs (x, y) of each contact node in each of the k bodies, -1 where none.
    Eigen::MatrixXi dofs;
@@ -94,6 +95,9 @@ struct ReducedProblem
    /// Lines that the nodes form, in their order, each node on one: the interface and the bodies
    /// of each node. Empty for nodes that do not follow each other, see also one_chain().
    std::vector<ContactChain> chains;
+   /// Nodes of a surface at its rim, beyond which the bodies go on: contact there is cut off,
+   /// see cut_off_contact(). Lines have the ends of their chains.
+   std::vector<Eigen::Index> rim;
    /// Rigid motions {v; w} that nothing resists, one orthonormal column each, as they were
    /// imposed on the stiffness: (c+1)·n × k, k = 0 if the bodies are held. Of a problem made by
    /// hand complete() seeks them, and files must state all of them; a march does not seek.
@@ -157,7 +161,13 @@ struct ReducedProblem
 /// and the rigid motions, which are those that the stiffness does not resist by more than the
 /// rounding of its entries.
 void complete(ReducedProblem &problem);
-/// The first two of these alone, for who knows the rigid motions.
+/// The same for who knows the rigid motions {v; w}, which are not sought: columns, (c+1)·n × k,
+/// which need not be orthonormal. InputError if they are not independent, one of them is
+/// resisted, or one that nothing resists is not among them. Costs a Cholesky factor.
+void complete(ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions);
+/// InputError if the stiffness does not resist a motion that the problem does not state.
+void require_all_motions_stated(const ReducedProblem &problem);
+/// The first two of these alone, without a check.
 void join_coupling(ReducedProblem &problem);
 /// InputError if some displacement of the nodes meets energy below zero, which no body does:
 /// such a stiffness has several answers, and what is proven of them does not hold. Costs a

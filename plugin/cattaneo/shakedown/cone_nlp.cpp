@@ -428,6 +428,11 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
 ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
                    const ConeStart &start)
 {
+   if (programme.components() == 2 && programme.r_low.size() == 0)
+   {
+      ConeSolution found = solve_by_interior_points(programme, settings, start);
+      if (found.outcome != ConeOutcome::failed) { return found; }
+   }
    ConeSolution solution = run_ipopt(programme, settings, start);
    const bool failed =
       solution.outcome == ConeOutcome::failed || solution.outcome == ConeOutcome::infeasible;

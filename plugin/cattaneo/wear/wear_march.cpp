@@ -224,8 +224,7 @@ bool WearMarch::fails(const WearCycle &cycle)
    report_.last = cycle.report;
    for (const CutOffContact &end : cycle.report.cut_off)
    {
-      const auto same = [&](const CutOffContact &other)
-      { return other.node == end.node && other.at_first == end.at_first; };
+      const auto same = [&](const CutOffContact &other) { return other.same_place(end); };
       std::vector<CutOffContact> &all = report_.cut_off;
       if (std::none_of(all.begin(), all.end(), same)) { all.push_back(end); }
    }

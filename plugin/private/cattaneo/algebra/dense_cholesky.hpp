@@ -13,6 +13,9 @@ public:
    /// Replaces the factor; only the lower triangle is read. False if M is not positive
    /// definite.
    bool compute(Eigen::MatrixXd matrix);
+   /// Of the squares of L's diagonal: the energy that each unknown still meets where those
+   /// before it are free.
+   double smallest_pivot() const;
    /// x <- M⁻¹ x
    void solve(Eigen::VectorXd &x) const;
    /// M⁻¹ x, one right-hand side a column.

@@ -26,8 +26,13 @@ private:
 };
 
 /** Orthonormal basis of what a symmetric positive semidefinite matrix does not resist by more
-    than the rounding of its entries, by pivoted LDLᵀ: the search for those who know the matrix
-    and nothing else. */
+    than the rounding of its entries: the search for those who know the matrix and nothing else.
+    Costs two Cholesky factors, of a small matrix, or one with many soft motions, a pivoted
+    LDLᵀ. */
 Eigen::MatrixXd null_space(const Eigen::MatrixXd &A);
+
+/// Does a symmetric positive semidefinite matrix clearly resist everything but these motions
+/// (orthonormal columns)? Costs a Cholesky factor. False: not clearly, null_space() knows.
+bool resists_all_but(const Eigen::MatrixXd &A, const Eigen::MatrixXd &motions);
 
 } // namespace cattaneo

@@ -9,7 +9,7 @@ namespace cattaneo
 // The laws of contact and friction of one node: its methods, checks and paths all ask here.
 //
 // A node has no tangential entries without friction, one in the plane, two in the disc
-// |q| <= f p (radial, circumferential), where a slip increment x opposes the friction force,
+// |q| <= f p (first and second tangent), where a slip increment x opposes the friction force,
 // q = -f p x/|x|.
 
 /// Tangential entries of one node, none, one or two.

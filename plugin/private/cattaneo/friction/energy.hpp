@@ -25,6 +25,9 @@ Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 
+/// Work of friction over an increment, -½(q₀ + q₁)·Δv: the forces change linearly.
+double friction_work(const ContactState &before, const ContactState &after);
+
 /// Derivatives of a number that depends on the rubbing() of one node, as its way begins
 /// where friction is exhausted: by its forces before (0) and after (1), its slip Δv, its
 /// friction and its own tangential stiffness.

@@ -26,8 +26,8 @@ Search active_set(Increment &at);
 bool newton(Increment &at);
 /// From where so many sweeps lead, from where the last ones ended.
 bool newton_after_sweeps(Increment &at, int sweeps);
-/// Takes the states that the present displacements and forces ask for, in the disc with the
-/// directions of slip. @return how many nodes changed theirs
+/// Takes the states that the present displacements and forces ask for, with one tangent or
+/// none. @return how many nodes changed theirs
 Eigen::Index ask_for_states(Increment &at);
 /// newton() from a point that may be an answer itself, but for round-off.
 bool polished(Increment &at);

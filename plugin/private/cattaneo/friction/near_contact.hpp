@@ -100,6 +100,7 @@ private:
    const int eighths_;
    long parts_ = 0;
    std::vector<Index> nodes_, rows_;        // in the whole problem
+   std::vector<Index> slips_;               // of the rows those along the contact
    std::vector<Index> place_;               // of the rows, among those that are left
    std::vector<Eigen::VectorXd> condensed_; // of each pattern, see FarFirst::condense()
    std::shared_ptr<ReducedProblem> problem_;

@@ -104,6 +104,11 @@ struct ConeSolution
 
 ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
                    const ConeStart &start);
+/// The same of a programme with two tangential components and no bounds of r: interior points
+/// of its cones, whose equations are dense and as many as r has entries, however many vertices
+/// there are.
+ConeSolution solve_by_interior_points(const ConeProgramme &programme,
+                                      const ConeSettings &settings, const ConeStart &start);
 
 /// How round-off counts that the forces may have suffered.
 enum class Rounding
