@@ -106,12 +106,12 @@ public:
                             const ScalarField &uy, const ScalarField &u_theta = 0.0);
 
    /** Rigid obstacles that are free to move, in one motion or several, each that of some
-       interfaces, and take loads there: obstacles on which forces or moments act, guided or not.
-       Displacements of the reduced problem are relative to them, as of add_obstacle_motion().
-       The load of a motion is a force on the obstacles that does work `force` per unit
-       multiplier and unit of the motion (a force along it, a moment about a turn's centre), and
-       its conjugate is how far they move, times `force`. A motion without a name has no load.
-       Shanks must have been added before, prescribed motions after.
+       interfaces, and take loads there: obstacles on which forces or moments act, guided or
+      not. Displacements of the reduced problem are relative to them, as of
+      add_obstacle_motion(). The load of a motion is a force on the obstacles that does work
+      `force` per unit multiplier and unit of the motion (a force along it, a moment about a
+      turn's centre), and its conjugate is how far they move, times `force`. A motion without a
+      name has no load. Shanks must have been added before, prescribed motions after.
 
        InputError as of add_obstacle_motion(), if no motion is given, or if the bodies do not
        resist one of them. */
