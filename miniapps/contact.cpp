@@ -68,10 +68,11 @@ struct CaseOptions
    {
       study.options().require_version(2);
       study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
-      study.option(&thickness, "thickness",
-                   "Of plane bodies: forces, moments and energies are those of the whole "
-                   "thickness (default: per thickness).",
-                   positive);
+      study.option(
+         &thickness, "thickness",
+         "Thickness of plane bodies: forces, moments and energies are those of the whole "
+         "thickness (default: per thickness).",
+         positive);
       study.option(&geometry, "geometry",
                    "Sides of straight edges: smooth (curves through their vertices where these "
                    "turn as on one) or as meshed (polygons).",
