@@ -153,12 +153,12 @@ TEST(SplitLine, WhatCannotBeSplitIsNamed)
       [&] {
          read_mesh(file, nullptr, {"", "", "rim"});
       },
-      "the line 'rim' begins twice");
+      "two edges of the line 'rim' begin at node");
    expect_input_error(
       [&] {
          read_mesh(square(1, 2, false), nullptr, {"", "", "crack"});
       },
-      "must run one way");
+      "two edges of the line 'crack' end at node");
    const std::string mfem =
       std::string(CATTANEO_SOURCE_DIR) + "/tests/fuzz/cases/block/block.mesh";
    expect_input_error(

@@ -2,6 +2,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/split_line.hpp>
 #include <set>
+#include <tuple>
 
 namespace cattaneo
 {
@@ -84,7 +85,7 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
    // The cut edges, and on which side of each line its two elements are.
    std::set<DirectedEdge> cut;
    std::vector<std::size_t> lines;
-   std::set<long> on_line, starts;
+   std::set<long> on_line, starts, stops;
    long last_curve = 0;
    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
    {
@@ -95,10 +96,14 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
       lines.push_back(e);
       cut.insert(undirected({element.nodes[0], element.nodes[1]}));
       on_line.insert(element.nodes.begin(), element.nodes.end());
-      require(starts.insert(element.nodes[0]).second, "mesh file: the line '", name,
-              "' begins twice at node ", element.nodes[0],
-              ", must run one way from end to end to be split (in Gmsh: turn a curve round "
-              "with a minus sign)");
+      for (const auto &[of, node, what] : {std::tuple{&starts, element.nodes[0], "begin"},
+                                           std::tuple{&stops, element.nodes[1], "end"}})
+      {
+         require(of->insert(node).second, "mesh file: two edges of the line '", name, "' ",
+                 what, " at node ", node,
+                 ", it must run one way from end to end to be split (in Gmsh a minus sign "
+                 "turns a curve round: Physical Curve(5) = {1, -2};)");
+      }
    }
    require(!lines.empty(), "mesh file: the line '", name, "' has no edges, nothing is split");
 
