@@ -109,7 +109,7 @@ int main(int argc, char *argv[])
    expansion.SpMat().MultTranspose(temperature, heat);
 #endif
 
-   // 4. What is held: the top, and the plane of symmetry with the contact node on it.
+   // 4. The supports: the top, and the plane of symmetry with the contact node on it.
    Array<int> top({0, 0, 1, 0}), left({0, 0, 0, 1}), bottom({1, 0, 0, 0}), held_top, held_left;
    space.GetEssentialTrueDofs(top, held_top, 1);
    space.GetEssentialTrueDofs(left, held_left, 0);
@@ -142,7 +142,7 @@ int main(int argc, char *argv[])
                       << pressure.maxCoeff() << ", without friction " << expected << std::endl;
          }
          else { std::cout << "the block does not reach the plane" << std::endl; }
-         // What is not one answer has the load from which on, and the node.
+         // If the answer is not unique, the report has the load from which on, and the node.
          if (report.status != cattaneo::FrictionStatus::converged)
          {
             std::cout << "from heat = " << report.event_multipliers[problem.pattern("heat")]

@@ -124,7 +124,7 @@ void hertz(Study &study)
       run.to({{"Q", Q * friction}});
       const Zone stick = stick_zone(problem, run.state);
       const double c = half_width(stick) / b;
-      // Of monotonic loading: of what turned back there is no closed form here.
+      // For monotonic loading alone. Reversed loading has no closed form here.
       const double exact_c = k < one_way ? std::sqrt(std::max(0.0, 1 - std::abs(Q))) : none;
       // Shear +Q acts on body 1 above: the force of the contact on it is -q.
       const Deviation off =

@@ -34,7 +34,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Of one loaded or partly unloaded state: zones by ξ; s and e, as in the thesis, against it.
+/// Zones of one loaded or partly unloaded state, by ξ. s and e count against ξ, as in the
+/// thesis.
 Extent extent(const ReducedProblem &problem, const ContactState &state, double overhang)
 {
    Extent found = miniapp::extent(problem, state, false, -overhang);

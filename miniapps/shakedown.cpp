@@ -189,7 +189,8 @@ void Shakedown::prepare()
    results["contact_nodes"] = problem.nodes();
    standard = !saved && coulomb && punch.half_plane && punch.order > 1 && punch.unbounded();
    results["standard"] = standard;
-   // What the mesh adds: the extremes lie between nodes, at second order in their spacing.
+   // The error of the mesh: the extremes lie between nodes, which is of second order in their
+   // spacing.
    results["mesh_error_estimate"] =
       30.0 / std::pow(static_cast<double>(problem.nodes() - 1), 2);
 }

@@ -9,7 +9,7 @@
 namespace miniapp
 {
 
-/// What all parts of the study know of it.
+/// Data that all parts of the study share.
 struct Disc
 {
    DiscOptions options;
@@ -21,7 +21,7 @@ struct Disc
    cattaneo::ReducedProblem &problem() { return scene.problem(); }
    Eigen::VectorXd radii() { return problem().position.col(0); }
    cattaneo::NamedLoads pressed(double load = 1) const { return {{radius_load(a), load}}; }
-   /// Of a state, by radii.
+   /// The zones of a state, by radii.
    Extent extent(const cattaneo::ContactState &state) { return extent(problem(), state); }
    Extent extent(const cattaneo::ReducedProblem &of, const cattaneo::ContactState &state) const;
 };

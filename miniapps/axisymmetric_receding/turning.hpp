@@ -29,7 +29,7 @@ public:
    {
    }
 
-   /// What a stop is counted in.
+   /// The unit in which stops are counted.
    enum class Stop
    {
       torque,

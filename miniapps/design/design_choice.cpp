@@ -56,7 +56,7 @@ std::vector<Line> lines_of(const ReducedProblem &problem)
    return all;
 }
 
-/// Of each node, from the middle of its line.
+/// Distance of each node from the middle of its line.
 VectorXd from_the_middle(const ReducedProblem &problem)
 {
    VectorXd x = problem.arc_length;
@@ -276,7 +276,7 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
    }
    design.variables = cattaneo::gap_variables(G);
    bound(design, G.cols(), 0, choice.most);
-   // What begins flat is crowned. What has a gap may also be too round: other nodes come before
+   // A flat start is crowned. A start with a gap may also be too round: other nodes come before
    // the one that stays, so that no shape is left out; of bodies that are held, by their gaps.
    // An odd power leans to one side or to the other.
    for (Index j = 0; j < G.cols(); ++j)

@@ -8,11 +8,11 @@
 namespace miniapp
 {
 
-/// What a design may choose, one of the three: the gap, loads, or friction in zones.
+/// The quantity that a design chooses, one of three: the gap, loads, or friction in zones.
 struct DesignChoice
 {
-   /// Of the gap: "free" at each node; "crown", powers of the distance from the middle of each
-   /// line; "rounded", flat in the middle and a parabola on either side.
+   /// Shape of the gap: "free" at each node; "crown", powers of the distance from the middle of
+   /// each line; "rounded", flat in the middle and a parabola on either side.
    std::string profile = "free";
    std::vector<double> powers = {2, 4}; ///< of the crown, whole numbers from 1
    /// Most that a gap changes by; coefficient of each power at the ends of the line; 1/R.
@@ -23,7 +23,7 @@ struct DesignChoice
    std::vector<double> coat; ///< least and most friction
    int zones = 4;            ///< of friction, of equal lengths, of each line
 
-   /// What is chosen: "gap", "loads" or "coat".
+   /// The chosen quantity: "gap", "loads" or "coat".
    std::string what() const
    {
       return !loads.empty() ? "loads" : !coat.empty() ? "coat" : "gap";
@@ -35,7 +35,7 @@ struct DesignVariables
 {
    std::vector<std::string> names;
    Eigen::VectorXd start;
-   /// What is added to a variable when it is printed: loads and friction are as a whole.
+   /// Added to a variable when it is printed, so that loads and friction appear as a whole.
    Eigen::VectorXd before;
 };
 

@@ -29,7 +29,7 @@ LoadHistory with_variables(const DesignProblem &problem, const DesignCase &of,
    return history;
 }
 
-/// What a case comes to, by a march alone.
+/// The result of a case, by a march alone.
 struct Marched
 {
    double peak = 0, lost = 0; ///< at the points that count, and between them

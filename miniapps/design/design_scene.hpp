@@ -7,7 +7,8 @@
 namespace miniapp
 {
 
-/// What is designed, and for what: a scene with its loads, or a saved problem with its history.
+/// The object of the design and its purpose: a scene with its loads, or a saved problem with
+/// its history.
 struct DesignScene
 {
    std::string scene = "pad"; ///< or "punch"

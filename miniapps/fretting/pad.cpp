@@ -207,7 +207,7 @@ void compare(Study &study, const Pad &pad, const PadContact &closed_form,
 {
    const double a = closed_form.half_width, modulus = pad.modulus();
    const double limit = pad.friction * pad.normal, x = std::abs(pad.shear) / limit;
-   // What sticks is as wide as the contact under the load P - Q/f alone would be.
+   // The stick zone is as wide as the contact under the load P - Q/f alone would be.
    const double stick = x == 0 ? a : pad.half_width_under(pad.normal * (1 - x));
    const double bulk = pad.bulk_or_none() - pad.bulk_pad;
    const bool hertz = std::isnan(pad.flat);

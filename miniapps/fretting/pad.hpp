@@ -58,7 +58,7 @@ struct PadEdge : cattaneo::fretting::SolvedEdge
    bool resolved = false; ///< fewer spacings than two do not carry a slip zone, nor its energy
 };
 
-/// What the specimen feels at an instant of the steady cycle.
+/// Tractions and bulk stress on the specimen at an instant of the steady cycle.
 struct PadInstant
 {
    Eigen::VectorXd shear, pressure; ///< forces of the contact nodes, along x and pressing
@@ -83,9 +83,10 @@ struct SolvedPad
 /// InputError if it ends before the peak load.
 SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form);
 
-/// What the finite elements give beside the closed forms of Hertz and Mindlin (with bulk
-/// stress: Nowell and Hills, as long as both edges slip in the sense of the shear), for a pad
-/// with a flat beside those of Ciavarella, Hills and Monno, and of Jäger and Ciavarella.
+/// Results of the finite elements beside closed forms: those of Hertz and Mindlin, with bulk
+/// stress those of Nowell and Hills (as long as both edges slip in the sense of the shear). For
+/// a pad with a flat they are those of Ciavarella, Hills and Monno, and of Jäger and
+/// Ciavarella.
 void compare(Study &study, const Pad &pad, const PadContact &closed_form,
              const SolvedPad &solved);
 

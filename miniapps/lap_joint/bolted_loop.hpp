@@ -10,7 +10,7 @@
 namespace miniapp
 {
 
-/// What all parts of the study know of it.
+/// Data that all parts of the study share.
 struct Joint
 {
    LapJointOptions options;
@@ -30,7 +30,7 @@ struct Joint
                                                 double pressure = 1) const;
 };
 
-/// What a history of tightening and cycles gave.
+/// Results of a history of tightening and cycles.
 struct BoltedLoop
 {
    cattaneo::MarchReport report;
@@ -68,7 +68,7 @@ double touch_load(cattaneo::FrictionSolver &solver, cattaneo::NamedLoads loads, 
 /// The order of tightening: numbers of bolts from 1, orders separated by a slash.
 std::vector<std::vector<int>> orders(const std::string &text, const std::vector<double> &bolts);
 
-/// What is left of forces that are none, over those beside them.
+/// Relative size below which a force counts as round-off of its neighbours.
 constexpr double round_off = 1e-9;
 /// Largest deviation from mirror symmetry, over the largest value. @param size of what the
 /// forces could be: those that are round-off of it are none, and symmetric

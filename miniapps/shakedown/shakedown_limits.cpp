@@ -29,8 +29,7 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
                   of.counters.limit_solves, of.iterations, of.seconds));
    if (what == "friction" || find == "load")
    {
-      // Of a limit that was not found nothing is proven; an unlimited one is held up to
-      // `lower`.
+      // A limit that was not found proves nothing. An unlimited one is proven up to `lower`.
       const bool bounds = found || of.status == LimitStatus::unlimited;
       results["bound_lower"] = bounds ? of.lower : std::nan("");
       results["bound_upper"] = bounds ? of.upper : std::nan("");
@@ -270,7 +269,7 @@ void Shakedown::ratios()
 
 void Shakedown::lower()
 {
-   // Of uncoupled contacts and of two nodes it is known without a programme.
+   // For uncoupled contacts and for two nodes it is known without an optimisation.
    const bool known = limit.residual.uncoupled || problem.nodes() == 2;
    if (!known && !lower_limits && starts == 0)
    {

@@ -15,7 +15,7 @@ using nlohmann::ordered_json;
 namespace
 {
 
-/// What a march came to.
+/// The result of a march.
 const char *outcome(const TransientReport &run)
 {
    return run.verdict == TransientVerdict::no_equilibrium ? name(run.status)
@@ -137,7 +137,7 @@ void Shakedown::marches()
       const TransientReport run =
          counted(transient(solver, limit, lambda_max, sign * optimal, of_cycles(watch)));
       const auto &loss = run.dissipation;
-      // What no whole cycle has shown is not known, and not zero.
+      // Without a whole cycle the value is unknown, not zero.
       const auto seen = [&](double value) { return loss.empty() ? none : value; };
       const auto opened_nodes = static_cast<double>(run.opened.size());
       const bool ends = run.status != FrictionStatus::converged;

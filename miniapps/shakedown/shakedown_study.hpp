@@ -26,7 +26,7 @@ public:
    void run();
 
 private:
-   /// Of the limits.
+   /// The assumption of the limits.
    static constexpr const char *assumption = cattaneo::limit_assumption;
 
    void options();
@@ -37,7 +37,7 @@ private:
    std::string law() const;
    /// Leaves in the problem the nodes that stay closed in marches at this load.
    void keep_closed(double load_factor);
-   /// What follows from the problem.
+   /// Data that follow from the problem.
    void set_up();
    /// The limit; if it alone is asked for, on the nodes that stay closed at the limit itself.
    void largest_of_closed();
@@ -75,13 +75,13 @@ private:
    void as_before();
    cattaneo::TransientReport counted(cattaneo::TransientReport run);
    cattaneo::TransientSettings of_cycles(Watch &watch) const;
-   /// Of the nodes taken to stay open: their gaps at the limit, and marches of the whole
-   /// contact in which they are free to close.
+   /// Checks the nodes that are taken to stay open: their gaps at the limit, and marches of the
+   /// whole contact in which they are free to close.
    void check_open_nodes();
    /// λ1: what is proven, if it is asked for or costs nothing, and what marches from many
    /// starts show.
    void lower();
-   /// What is proven of λ1 but for slip at nodes near the ends.
+   /// The bound of λ1 that is proven except for slip at nodes near the ends.
    void lower_apart(const cattaneo::LimitSettings &settings);
    Eigen::VectorXd traction(const Eigen::VectorXd &force) const;
    /// The limit whose optimal slip is drawn and marched from.

@@ -109,7 +109,7 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    const ReducedProblem &problem = scene.problem;
    const VectorXd p = tractions(problem, end.contact.p);
    const Zone stick = widest_stick(problem, p, zones(problem, end.unworn, end.range));
-   // Of several lines that on which the widest zone sticks.
+   // If there are several lines, the one with the widest stick zone.
    Index begin = 0, nodes = problem.nodes();
    for (const ContactChain &chain : problem.chains)
    {

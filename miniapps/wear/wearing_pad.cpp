@@ -18,10 +18,10 @@ namespace
 constexpr double modulus = 4 / M_PI; ///< E*, with which a = 1 under P = 1 if R = 1
 
 /** How far a pad with the half-width `flat` between radii 1 wears in the end, where |x| < c
-    sticks: what slips carries nothing, so that the load that c does not carry by itself, the
-    share `shear` of P = 1, presses as under a rigid punch. Contact grows as a row of such
-    punches (Jäger 1998), dP = E* a arccos(flat/a) da, each of which lifts the surface beyond
-    it by (2/πE*) arccosh(x/a) dP; at the border what both lift is the same. */
+    sticks: slipping parts carry nothing. The load that c does not carry by itself, the share
+    `shear` of P = 1, presses as under a rigid punch. Contact grows as a row of such punches
+    (Jäger 1998), dP = E* a arccos(flat/a) da, each of which lifts the surface beyond it by
+    (2/πE*) arccosh(x/a) dP; at the border what both lift is the same. */
 double worn_extent(double flat, double c, double shear)
 {
    const auto left = [&](double x) // of the gap that wear must take, over 2/πE*
@@ -73,7 +73,8 @@ WearCase pad_on_half_plane(Study &study, const WearingPad &pad, double shear, do
    const double b = profile == "parabola" ? 0.0 : flat;
    const auto half_width = [b = b](double P)
    { return fretting::flat_rounded_contact(P, 1, b, modulus).half_width; };
-   // What sticks is the contact of the load that shear leaves over (Cattaneo, Jäger).
+   // The stick zone is the contact under the load that remains beside the shear (Cattaneo,
+   // Jäger).
    const double c = half_width(1 - shear), a = half_width(1);
    const double span = std::max(1.15 * a, 1.1 * worn_extent(b, c, shear));
    HalfPlanes planes;

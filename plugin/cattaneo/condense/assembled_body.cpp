@@ -76,7 +76,7 @@ void AssembledBody::validate() const
          largest = std::max(largest, std::abs(entry.value()));
       }
    }
-   // What an ElasticBody asks of a user's operator, too. By columns the entries are sorted.
+   // An ElasticBody requires the same of a user's operator. By columns the entries are sorted.
    const Eigen::SparseMatrix<double> by_columns = stiffness,
                                      transposed = by_columns.transpose(),
                                      difference = by_columns - transposed;

@@ -51,24 +51,24 @@ struct AssembledBody
        and refuses them else: as springs they move nothing of the body. A component none of
        whose rows is connected to another is a bed of springs, and kept. */
    std::vector<int> eliminated() const;
-   /// What is to be said of eliminated() rows that condense() takes for fixed; nothing if there
-   /// are none.
+   /// A warning about eliminated() rows that condense() takes as fixed. Empty if there are
+   /// none.
    std::string eliminated_warning() const;
 
-   /// InputError that names what does not fit: blocks whose dofs are not fixed, sizes, columns,
-   /// an entry that is there twice, the order of the fixed dofs, loads that are not finite,
-   /// have no name of their own or displace what is not fixed or what nothing hangs on (a
-   /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it), rows
-   /// that are eliminated() of a body that is not grounded, a node that nothing but a diagonal
-   /// holds across the axes (a support on a slope that was eliminated).
+   /// InputError that names the fault: blocks whose dofs are not fixed, sizes, columns, a
+   /// repeated entry, or the order of the fixed dofs. Loads must be finite and have different
+   /// names. They may displace only fixed dofs that are coupled to others (not those of an
+   /// eliminated matrix). The stiffness must be symmetric, not one triangle. A body that is not
+   /// grounded may have no eliminated() rows. No node may be held by a diagonal alone across
+   /// the axes (a support on a slope that was eliminated).
    void validate() const;
-   /// What is said of a load whose displacements nothing hangs on.
+   /// The message about a load that displaces dofs without coupling to others.
    static constexpr const char *feels_nothing =
       "moves nothing, the rows of the displaced dofs hold nothing but a diagonal: was the "
       "matrix eliminated? Pass it as assembled (SpMat() after Finalize)";
 };
 
-/// What is said of so many eliminated rows, and of the first of them.
+/// The message about that many eliminated rows, with the first of them.
 std::string eliminated_rows(std::size_t count, Formulation formulation, int component,
                             const Eigen::Vector2d &place);
 

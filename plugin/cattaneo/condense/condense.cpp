@@ -293,7 +293,7 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
                          felt = H.bottomLeftCorner(moved, count) - V;
    solver->by_contact = -solve_semidefinite(stiffness, F_d.transpose());
    solver->by_load = -solve_semidefinite(stiffness, felt);
-   // What the minimum over d leaves of the energy.
+   // The energy at the minimum over d.
    found.S += F_d * solver->by_contact;
    found.S = (0.5 * (found.S + found.S.transpose())).eval();
    found.clamped.forces = F.leftCols(count) + F_d * solver->by_load;

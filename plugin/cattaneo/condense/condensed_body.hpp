@@ -27,8 +27,8 @@ public:
 /** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local
     frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
 
-    Of a torsion body: u = v = u_θ and f = q, circumferential, positive in the direction of the
-    twist whatever the line's frames.
+    In a torsion body u = v = u_θ and f = q are circumferential, positive in the direction of
+    the twist whatever the line's frames.
 
     Nothing of the program that assembled the body is kept but its matrix. */
 class CondensedBody
@@ -38,10 +38,10 @@ public:
    ContactLine line; ///< its contact nodes, in their order
    /// 2n × 2n (torsion: n × n), symmetric; zero in the rows and columns that are held.
    Eigen::MatrixXd S;
-   /// Rows of S of components that supports hold, increasing. A node of which one component is
-   /// held keeps the frame of the line, whatever angle that has to the component: of a held v,
-   /// w is the opening along the line's own normal of a node that moves across what is held,
-   /// and p the force along that normal, of which the support takes its part. See directions().
+   /// Rows of S of components that supports hold, increasing. A node with one held component
+   /// keeps the frame of the line, at any angle to that component. With v held the node moves
+   /// across the held direction. Then w is its opening along the normal of the line, and p the
+   /// force along that normal, part of which the support carries. See directions().
    std::vector<int> held;
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
    Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)

@@ -112,7 +112,7 @@ Eigen::Vector2d LineElement::curve_tangent(double s) const
    return (chord + slope * Eigen::Vector2d(chord[1], -chord[0])).normalized();
 }
 
-/// Of the inner nodes of elements, by off(element, s); n × 2.
+/// Offsets of the inner nodes of elements, by off(element, s); n × 2.
 template <class Off>
 static Eigen::MatrixX2d off_nodes(const ContactLine &line, Off off)
 {

@@ -16,8 +16,8 @@ namespace cattaneo
 /// A contact node of one body.
 struct LineNode
 {
-   /// Of the body's stiffness, for each component: x and y (twist, -1). Of a body on several
-   /// ranks they are numbers that all ranks share.
+   /// Dofs of the body's stiffness, for each component: x and y (twist, -1). For a body on
+   /// several ranks these numbers are the same on all ranks.
    std::array<int, 2> dofs{-1, -1};
    Eigen::Vector2d position{0, 0}; ///< (x, y), or (r, z)
    Eigen::Vector2d tangent{1, 0};  ///< unit vector along the line, the body on its left
@@ -70,7 +70,7 @@ struct LineChain
    /** How the boundary of the body goes on beyond the first and the last node, whatever it is
        called there: smoothly if it turns by less than smooth_turn, or than 1.5 times as much
        as the line itself between its last two elements (a polygon stands for a curve), up to
-       corner_turn; else at a corner. Of a loop: smoothly. Unknown where no outer edge goes
+       corner_turn; else at a corner. A loop goes on smoothly. Unknown where no outer edge goes
        on. */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    /// In their order along the chain. Without them it is not known whether elements of two
@@ -96,8 +96,8 @@ struct LineChain
     frame (tangent, normal) with the normal *into* the body (thesis 3.2.1); at a node between
     two boundary elements the normals are averaged with the elements' consistent weights. A
     straight line of a body above y = 0 has tangent (1, 0) and normal (0, 1); of a body below,
-    (-1, 0) and (0, -1). Of a mesh, all of this comes from the elements that the boundary
-    elements are edges of, not from the order or the orientation of the boundary elements.
+    (-1, 0) and (0, -1). For a mesh all of this comes from the elements with these edges, not
+    from the order or the orientation of the boundary elements.
 
     Several separate chains are allowed; they follow each other in the order of their first
     nodes (lowest x, then y), and the arc length continues from one to the next. A closed loop
@@ -138,7 +138,7 @@ struct ContactLine
    /// The chain that a node is on.
    const LineChain &chain_of(Eigen::Index node) const;
 
-   /// What all nodes have of a kind: each(&LineNode::weight) has n entries, each of
+   /// One quantity of all nodes: each(&LineNode::weight) has n entries, each of
    /// &LineNode::position, tangent or normal n × 2.
    template <class Kind>
    auto each(Kind kind) const
@@ -154,9 +154,9 @@ struct ContactLine
       return all;
    }
 
-   /// Of the distances of a node to its neighbours: there three digits are left of the traction
-   /// at the middle node of a short quadratic element, and two are lost with each further
-   /// decade.
+   /// Smallest ratio of the distances of a node to its neighbours. At this ratio the traction
+   /// at the middle node of a short quadratic element has three right digits. Each further
+   /// decade costs two.
    static constexpr double least_ratio = 1e-6;
 
    /// InputError that names the node or the element if there are no nodes, a place is not

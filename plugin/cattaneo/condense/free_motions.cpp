@@ -10,7 +10,7 @@ namespace cattaneo
 namespace
 {
 
-/// Of blocks what they do to the dofs of a part.
+/// The effect of blocks on the dofs of a part.
 class BlocksOfPart
 {
 public:
@@ -36,7 +36,7 @@ public:
          motions_.rightCols(1) = motion;
       }
    }
-   /// Of rigid motions of the part, as columns, those that its blocks can do.
+   /// The rigid motions of the part, as columns, that its blocks allow.
    Eigen::MatrixXd allowed(const Eigen::MatrixXd &rigid) const
    {
       if (rows_.empty() || rigid.cols() == 0) { return rigid; }

@@ -78,7 +78,7 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
       const double largest = motion.cwiseAbs().maxCoeff();
       if (largest > 0) { motion /= largest; }
    }
-   // Of a set without any y, or of one node, motions are the same or none at all.
+   // In a set without y, or with one node, motions coincide or vanish.
    if (free.cols() == 0) { return free; }
    const auto differing = three_columns(free, 1e-12);
    if (differing.rank() == free.cols()) { return free; }

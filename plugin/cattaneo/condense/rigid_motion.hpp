@@ -24,16 +24,16 @@ struct DofPlaces
 Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
                                    const std::vector<bool> &held);
 
-/// Of the given motions, an orthogonal set of combinations that K does not resist: a user's
+/// An orthogonal set of combinations of the given motions that K does not resist: a user's
 /// operator may contain elastic foundations. `motions` are columns over `dofs`, a union of
 /// whole components.
 Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,
                            const Eigen::MatrixXd &motions);
 
 /// Combinations of motions, orthonormal columns, whose energy is the round-off of a matrix of
-/// 13 digits. Of each two motions the energy is given, Rᵀ K R, and the sum over all of them of
-/// what it is with every entry taken positive, |r|ᵀ |K| |r|: a foundation below 1e-13 of that
-/// is not told from none.
+/// 13 digits. Given are the energies of each two motions, Rᵀ K R, and the sum over all motions
+/// of |r|ᵀ |K| |r|, the energy with every entry taken positive. A foundation below 1e-13 of
+/// that sum cannot be distinguished from none.
 Eigen::MatrixXd unresisted_combinations(const Eigen::MatrixXd &energy, double size);
 
 } // namespace cattaneo

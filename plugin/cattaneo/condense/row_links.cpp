@@ -87,7 +87,7 @@ namespace
 /// The direction of alone_on_a_slope() of the node with the dofs x and y.
 std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
 {
-   // What the two rows hold, within the node's block and beside it.
+   // Entries of the two rows, within the node's block and beside it.
    Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
    std::map<Eigen::Index, Eigen::Vector2d> beside;
    for (int k = 0; k < 2; ++k)

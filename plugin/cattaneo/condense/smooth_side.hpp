@@ -10,7 +10,7 @@ namespace cattaneo
 /** A smooth curve over a straight edge, through both of its ends. Seen along the edge with the
     body on the left, the curve leaves the chord to the right by the angle `begin` and comes
    back to it by the angle `end` (radians): both positive where the body is convex, negative in
-   a hole, zero where the edge is what it seems. Of an arc of a circle both are half of the
+    a hole, zero where the edge is what it seems. For an arc of a circle both are half of the
    angle that it spans, and the curve is that arc. */
 struct EdgeBend
 {
@@ -35,7 +35,7 @@ struct SideChord
    EdgeBend possible;    ///< of possible_curve(), where the side is kept a polygon
 };
 
-/// What is said of a side whose vertices may lie on smooth curves.
+/// The message about a side whose vertices may lie on smooth curves.
 struct SidePolygon
 {
    std::vector<Eigen::Vector2d> vertices; ///< along the side, the body on the left

@@ -46,7 +46,7 @@ double noise(int i, int j)
 
 StiffnessProbes::StiffnessProbes(const MatrixXd &S, const MatrixXd &motions) : Q_(motions)
 {
-   // What is not resisted is held, so that all the rest is positive definite.
+   // Motions without resistance are fixed, so that the rest is positive definite.
    MatrixXd held = S;
    if (Q_.cols() > 0)
    {

@@ -330,9 +330,9 @@ stiffness_rule(const mfem::FiniteElement &element,
                const mfem::IsoparametricTransformation &transformation, Formulation formulation,
                bool varying_material)
 {
-   // Of a body of revolution exact on straight triangles and on quads for any gradient of a
-   // shape function times the radii of the operator (r, in torsion r³), and for the product of
-   // two of them on elements with parallel sides.
+   // In bodies of revolution the rule is exact on straight triangles, and on quads for any
+   // gradient of a shape function times the radii of the operator (r, in torsion r³). On
+   // elements with parallel sides it is exact for the product of two of them.
    const int order =
       formulation == Formulation::plane
          ? 2 * transformation.OrderGrad(&element)

@@ -156,7 +156,7 @@ public:
    const Ranks &ranks() const { return ranks_; }
    /// True dofs of all ranks.
    int dofs() const;
-   /// Of a body that is not distributed.
+   /// The stiffness of a body that is not distributed.
    const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
    /// The same matrix, to be kept beyond the life of the body (never changed).
    SharedMatrix shared_stiffness() const;
@@ -175,8 +175,8 @@ public:
    const StressLaw &stress_law() const { return stress_law_; }
    /// Can stress_at() tell stresses?
    bool has_stress() const { return has_material() || stress_law_; }
-   /// Of all patterns that have one, at the point that is set; InputError if one of these is
-   /// not among the loads.
+   /// The sum over all patterns that have one, at the point that is set. InputError if one of
+   /// these is not among the loads.
    Strain initial_strain(mfem::ElementTransformation &at, const NamedLoads &loads) const;
 
    /// True dof of component c of the scalar node (local dof) of the space, -1 if it hangs on
@@ -193,7 +193,7 @@ public:
    /// True if a scalar node lies on the axis of revolution; always false in the plane.
    bool on_axis(int scalar_dof) const;
 
-   /// What was done so far.
+   /// Counts of the work so far.
    const Counters &counters() const { return counters_; }
 
 private:
@@ -249,7 +249,7 @@ public:
    /// A user's operator on several ranks, nothing eliminated from it either.
    ElasticBody(mfem::ParFiniteElementSpace &space, const mfem::HypreParMatrix &stiffness,
                Formulation formulation = Formulation::plane);
-   /// Of a distributed body, to be kept beyond its life.
+   /// The stiffness of a distributed body, which may be kept beyond its life.
    std::shared_ptr<const mfem::HypreParMatrix> distributed_stiffness() const;
 
 private:

@@ -67,7 +67,7 @@ void ElasticBody::add_forces(const std::string &pattern, const mfem::LinearForm 
    require(form.FESpace() == space_, "forces '", pattern,
            "': the linear form is on a space of ", form.Size(),
            " dofs that is not the body's, must be on ElasticBody::space()");
-   // What has nothing to integrate may have been filled by hand.
+   // A pattern without integrals may have been filled by hand.
    auto &parts = const_cast<mfem::LinearForm &>(form);
    const int integrators = parts.GetDLFI()->Size() + parts.GetBLFI()->Size() +
                            parts.GetFLFI()->Size() + parts.GetDLFI_Delta()->Size();
@@ -192,7 +192,7 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
                      });
 }
 
-/// What the virtual displacement φ of component c meets at a point: force[c] φ + flux[c] · ∇φ.
+/// The virtual work of the displacement φ of component c at a point: force[c] φ + flux[c] · ∇φ.
 struct ElasticBody::PointLoad
 {
    double force[2], flux[2][2];

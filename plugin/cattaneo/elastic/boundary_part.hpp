@@ -39,7 +39,7 @@ struct BoundaryPart
       require(!attributes.empty(), "boundary marker: none of its ", marker.Size(),
               " entries is 1, at least one must be");
    }
-   /// Of some attributes what lies between `lo_` and `hi_` of coordinate `axis_`.
+   /// The part of some attributes between `lo_` and `hi_` of coordinate `axis_`.
    BoundaryPart(std::vector<int> some, int axis_, double lo_, double hi_)
       : attributes(std::move(some)), axis(axis_), lo(lo_), hi(hi_)
    {

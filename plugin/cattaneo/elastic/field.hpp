@@ -19,7 +19,7 @@ public:
    Field(double constant) : f_([constant](mfem::ElementTransformation &) { return constant; })
    {
    }
-   /// Of MFEM; must live as long as it may be asked.
+   /// A coefficient of MFEM, which must live as long as the field.
    Field(mfem::Coefficient &coefficient)
       : f_([&coefficient](mfem::ElementTransformation &at)
            { return coefficient.Eval(at, at.GetIntPoint()); })

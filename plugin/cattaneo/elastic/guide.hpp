@@ -9,8 +9,8 @@ namespace cattaneo
 
 /** How a part of a boundary moves that is a rigid block: a grip, a stiff plate, a bearing. Its
     motions are along x, along y and about its centre; about an axis of revolution the one along
-    it alone is left. What is not given is what the conjugate of the load says: the displacement
-    of a force, the reaction of a displacement. */
+    it alone is left. The missing one of both is the conjugate of the load: the displacement of
+    a force, the reaction of a displacement. */
 struct Guide
 {
    /// How it moves in one way.

@@ -46,7 +46,7 @@ std::vector<int> components(const std::string &where, const std::string &text,
    return own;
 }
 
-/// Of a kind of load, whether it acts around an axis.
+/// Whether a kind of load acts around an axis.
 bool around(const std::string &kind)
 {
    return kind == "traction-t" || kind == "twist";

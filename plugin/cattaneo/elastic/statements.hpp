@@ -13,7 +13,7 @@ namespace cattaneo
 // (docs/contact.md). `called` is what the text is called in an error, the name of an option
 // for instance; every function throws an InputError that says it and quotes the statement.
 
-/// What a statement may ask of the body that it is about.
+/// Properties of the body that a statement may use.
 struct BodyTerms
 {
    /// Attributes by the names of their groups; none: of a name that is no part of the boundary.
@@ -35,8 +35,8 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
 
 /// Supports, separated by spaces: "1:x 2,4:xy" fixes components on boundary attributes,
 /// "@0,-1:x" at the node nearest to a point, which must not lie outside of the body. About an
-/// axis components are r and z, x and y mean the same, and t, around the axis: "1:rzt". Of the
-/// same text an axisymmetric body takes r and z, its torsion t.
+/// axis components are r and z, x and y mean the same, and t, around the axis: "1:rzt". An
+/// axisymmetric body takes r and z from the same text, its torsion body t.
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
                   const BodyTerms &terms = {});
 

@@ -50,7 +50,7 @@ struct Validity
    std::string text;          ///< a sentence that says why
 };
 
-/// What the criteria say of the edge. Units: N, mm, MPa.
+/// Results of the criteria for the edge. Units: N, mm, MPa.
 struct FrettingReport
 {
    double k_t_range = 0.0;         ///< ΔK_T, MPa√mm

@@ -68,7 +68,7 @@ CornerModes corner_modes(const Corner &corner);
     corner and have no intensity. */
 CornerModes corner_modes(const RigidCorner &corner);
 
-/// What the tractions near a corner were fitted by.
+/// The fit of the tractions near a corner.
 struct CornerFit
 {
    FittedIntensity k_one; ///< units: stress · length^{1-λ_I}

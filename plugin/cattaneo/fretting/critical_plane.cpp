@@ -100,8 +100,8 @@ CriticalPlane critical_plane(PlaneCriterion criterion, const StressCycle &cycle,
       if (at[k] < at[(k + 1) % planes] || at[k] < at[(k + planes - 1) % planes]) { continue; }
       const double angle = summit(value, (k - 1) * step, (k + 1) * step);
       const double there = std::max(value(angle), at[k]);
-      // Of planes that tie, as complementary ones under shear alone, the first, whatever the
-      // rounding.
+      // If planes tie, as complementary ones do under shear alone, the first is taken, whatever
+      // the rounding.
       if (!(there <= best.value + 1e-9 * std::abs(best.value))) { best = {there, angle}; }
    }
    best.angle -= M_PI * std::floor(best.angle / M_PI);

@@ -14,7 +14,8 @@ namespace cattaneo::fretting
 /// tension positive.
 using StressCycle = Eigen::Matrix<double, Eigen::Dynamic, 4>;
 
-/// What is largest on the critical plane. An amplitude is half of the range of the cycle.
+/// The quantity that is largest on the critical plane. An amplitude is half of the range of the
+/// cycle.
 enum class PlaneCriterion
 {
    findley,             ///< τ_a + k σ_n,max, MPa [Findley 1959]

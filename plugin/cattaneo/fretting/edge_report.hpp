@@ -10,7 +10,7 @@
 namespace cattaneo::fretting
 {
 
-/// What the edges of a marched contact are read from.
+/// Data from which the edges of a marched contact are read.
 struct MarchedStates
 {
    const ReducedProblem &problem; ///< of both states
@@ -38,7 +38,7 @@ struct SolvedEdge
    std::vector<std::string> notes; ///< sentences: what was left out, and what not to trust
 };
 
-/// What there is to say of all edges.
+/// Remarks on all edges.
 struct EdgeReport
 {
    std::vector<SolvedEdge> edges; ///< in the order of the nodes

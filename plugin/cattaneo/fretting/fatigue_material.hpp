@@ -22,8 +22,8 @@ struct Interval
    double middle() const { return 0.5 * (low + high); }
 };
 
-/** What the criteria need of a material (thesis Table 2.1). Units: N, mm, MPa, MPa√mm. Where a
-    strength is an interval, the criteria use its low end. */
+/** The properties of a material that the criteria need (thesis Table 2.1). Units: N, mm, MPa,
+    MPa√mm. Where a strength is an interval, the criteria use its low end. */
 struct FatigueMaterial
 {
    std::string name;            ///< of the record

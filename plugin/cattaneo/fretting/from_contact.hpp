@@ -7,7 +7,7 @@
 namespace cattaneo::fretting
 {
 
-/// What the near-edge fields and criteria take. InputError with why_not if it is not empty.
+/// The input of the near-edge fields and criteria. InputError with why_not if it is not empty.
 Edge near_edge(const ContactEdge &edge);
 
 /// Frictional energy of one marched cycle, computed and as the near-edge field predicts it.

@@ -6,7 +6,7 @@ namespace cattaneo::fretting
 {
 
 /* Correlators of life other than the crack threshold. All are of the steady cycle in which K_T
-   changes by ΔK_T at constant K_N, for any load ratio. Of @a edge only K_N and f are used. */
+    changes by ΔK_T at constant K_N, for any load ratio. Only K_N and f of @a edge are used. */
 
 /// Length of the zone of reversed slip, ΔK_T/(f K_N); 2K_T/(f K_N) when fully reversed.
 double reversed_slip_zone(const Edge &edge, double k_t_range);

@@ -6,7 +6,8 @@
 namespace cattaneo::fretting
 {
 
-/// What is compared with ΔK_th. The thesis does not say which of them Fig. 2.7 shows.
+/// The quantity that is compared with ΔK_th. The thesis does not say which of them Fig. 2.7
+/// shows.
 enum class Criterion
 {
    open,  ///< A: the part of the cycle in which the crack is open (a closed one does not count)
@@ -23,8 +24,8 @@ struct CrackCycle
    double drive(Criterion criterion) const;
 };
 
-/** A contact edge with a crack and its load cycle. What the near-edge field omits can be added:
-    it is unconservative to leave the bulk stress out. */
+/** A contact edge with a crack and its load cycle. Stresses that the near-edge field omits can
+ * be added. It is unconservative to leave the bulk stress out. */
 struct CrackedEdge
 {
    Edge edge;                    ///< at peak load
@@ -42,7 +43,7 @@ struct CrackedEdge
        valley: the peak less 2ΔK_T κ(c/d_r) and less the range of the bulk term. */
 CrackCycle crack_cycle(const CrackedEdge &crack, double depth);
 
-/// What becomes of a crack at the edge.
+/// The verdict on a crack at the edge.
 enum class CrackVerdict
 {
    arrests,          ///< K_I falls below the short-crack threshold before a0
@@ -52,7 +53,7 @@ enum class CrackVerdict
 /// As it is printed, in words.
 std::string to_string(CrackVerdict verdict);
 
-/// What the crack does, and how near to the threshold it is.
+/// The verdict on the crack, and its distance to the threshold.
 struct ThresholdReport
 {
    CrackVerdict verdict = CrackVerdict::arrests; ///< of the whole way from the surface on

@@ -95,8 +95,9 @@ bool above(const MatrixXd &c, double level, int depth = 10)
    return true;
 }
 
-/// What elements of one shape share: where the determinant is sampled, and the derivatives of
-/// the mapping there. The unit square; triangles are one whose side u = 1 is a point.
+/// Data that elements of one shape share: the points where the determinant is sampled, and the
+/// derivatives of the mapping there. The unit square; triangles are one whose side u = 1 is a
+/// point.
 class Shape
 {
 public:
@@ -132,7 +133,7 @@ public:
       const double largest = determinant.cwiseAbs().maxCoeff();
       const double along = a.colwise().norm().maxCoeff(),
                    across = b.colwise().norm().maxCoeff();
-      // Of x and y, which their round-off changes the determinant by.
+      // Change of the determinant by the round-off of x and y.
       const auto extent = [&](Index c)
       { return a.row(c).cwiseAbs().maxCoeff() + b.row(c).cwiseAbs().maxCoeff(); };
       const double round_off = 8 * std::numeric_limits<double>::epsilon() *
@@ -152,7 +153,7 @@ private:
    {
       return map.GetGeomType() == mfem::Geometry::TRIANGLE;
    }
-   /// Of the determinant in each direction, for polynomials of the map's order.
+   /// Degree of the determinant in each direction, for polynomials of the map's order.
    static int degree(const mfem::FiniteElement &map)
    {
       return triangle(map) ? 2 * map.GetOrder() - 2 : 2 * map.GetOrder() - 1;
@@ -184,7 +185,7 @@ private:
    std::array<std::unique_ptr<Shape>, mfem::Geometry::NUM_GEOMETRIES> shapes_;
 };
 
-/// What is said of an element, as numbers that ranks can exchange.
+/// The fault of an element, as numbers that ranks can exchange.
 struct Place
 {
    double number, attribute, x, y;

@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// What a body fills around one of the vertices of its mesh.
+/// The angle that a body fills around one of the vertices of its mesh.
 struct FilledCorner
 {
    double angle = 0;  ///< radians; π on a smooth boundary

@@ -22,7 +22,7 @@ int nodes_of(long type, const std::string &what)
    return found->second.nodes;
 }
 
-/// What follows in a file, in text or as Gmsh's binary numbers.
+/// The next entries of a file, in text or as Gmsh's binary numbers.
 class Numbers
 {
 public:
@@ -32,9 +32,9 @@ public:
 
    std::istream &lines() { return in_; }
    void in_section(const std::string &name) { section_ = name; }
-   /// Of 4 bytes.
+   /// An integer of 4 bytes.
    long integer() { return number<std::int32_t, long>(); }
-   /// Of 8 bytes.
+   /// An integer of 8 bytes.
    long large() { return number<std::uint64_t, long>(); }
    double real() { return number<double, double>(); }
    /// How many of something there are, no more than the file can hold.

@@ -268,7 +268,7 @@ void check_gmsh(const GmshMesh &mesh)
    edges.check();
 }
 
-/// What MFEM's message says, without the places in its source.
+/// MFEM's message, without the places in its source.
 std::string reason(std::string message)
 {
    const std::size_t arrow = message.find("--> "), abort = message.find("abort: ");

@@ -9,13 +9,13 @@
 namespace cattaneo
 {
 
-/// What is taken of a mesh file.
+/// The part of a mesh file that is read.
 struct MeshPart
 {
-   /// Of a deck: an instance, or a set of elements; empty: the deck has one body, or `usual`
-   /// says which.
+   /// A part of a deck: an instance, or a set of elements. Empty: the deck has one body, or
+   /// `usual` names it.
    std::string name;
-   /// Of several instances the one that is called so, if `name` is empty.
+   /// The name of an instance that is taken among several if `name` is empty.
    std::string usual = {};
    /// The name of a line within the body (a physical curve of Gmsh) along which the mesh is
    /// cut: elements on its two sides have nodes of their own there, but for ends within the
@@ -37,7 +37,7 @@ struct MeshPart
 mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr,
                      const MeshPart &part = {});
 
-/// What a mesh file says beside the mesh.
+/// Data of a mesh file beside the mesh.
 struct MeshNames
 {
    /// Boundary attributes by the names of groups ($PhysicalNames of Gmsh; spaces as
@@ -60,7 +60,7 @@ struct MeshNames
    std::vector<DeckMaterial> materials;  ///< of a deck's sections: attributes 1, 2, …
    std::set<std::string> plane_elements; ///< CPS, CPE: of a deck's sections
 };
-/// Of a mesh file that read_mesh() takes, and the same part of it.
+/// Reads a mesh file that read_mesh() takes, and the same part of it.
 MeshNames mesh_names(const std::string &file, const MeshPart &part = {});
 
 /// A sentence if vertices lie on one another, to a thousandth of their shortest edge, where the

@@ -8,13 +8,13 @@
 namespace cattaneo
 {
 
-/** The ranks that share a mesh: those of an mfem::ParMesh, or this one alone. What it does is
-    collective: every rank must call it, in the same order. The one place that speaks MPI. */
+/** The ranks that share a mesh: those of an mfem::ParMesh, or this one alone. Its functions are
+ * collective: every rank must call them, in the same order. The one place that speaks MPI. */
 class Ranks
 {
 public:
    Ranks() = default;
-   /// Of an mfem::ParMesh its ranks, else this one alone.
+   /// The ranks of an mfem::ParMesh. For another mesh this rank alone.
    explicit Ranks(const mfem::Mesh &mesh);
 
    /// How many.

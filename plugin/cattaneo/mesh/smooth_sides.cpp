@@ -129,7 +129,7 @@ std::vector<std::vector<OuterEdge *>> rims(std::vector<OuterEdge> &edges)
    return all;
 }
 
-/// What the vertices of a rim are the vertices of.
+/// The elements to which the vertices of a rim belong.
 void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
 {
    const bool loop = rim.front()->from == rim.back()->to;

@@ -24,8 +24,8 @@ class HistoryWriter
 {
 public:
    /// A new file. InputError if it cannot be written or the name of a pattern holds a line
-   /// break; names with a comma or a quote are put in quotes. Of the problem nothing is kept
-   /// but what columns there are.
+   /// break; names with a comma or a quote are put in quotes. Only the columns are kept from
+   /// the problem.
    HistoryWriter(const std::string &file, const ReducedProblem &problem);
    /// Goes on with the file of a march that is taken up from a state: rows beyond its time are
    /// dropped, so that in the end it is that of a march that never stopped. InputError if what

@@ -94,7 +94,7 @@ public:
    /// ContactLineFields.
    void write(const ContactState &state);
 
-   /// Of the half-plane; null if there is none.
+   /// The fields of the half-plane; null if there is none.
    const HalfPlaneFields *below() const { return below_.get(); }
 
 private:

@@ -8,7 +8,7 @@
 namespace cattaneo
 {
 
-/// A table cannot be gone on with: the disk is full, or has gone. What is written stays.
+/// A table cannot be gone on with: the disk is full, or has gone. Written text stays.
 class WriteError : public InputError
 {
 public:

@@ -95,7 +95,7 @@ bool mirrored(const ReducedProblem &problem, Index node)
            (node == problem.nodes() - 1 && problem.chains.back().mirrored_at(1)));
 }
 
-/// Of a stretch of contact together with its mirror image, if it has one.
+/// The middle of a stretch of contact together with its mirror image, if it has one.
 double middle_of(const ReducedProblem &problem, const Zone &stretch)
 {
    for (const Index end : {stretch.first, stretch.last})
@@ -111,7 +111,7 @@ double middle_of(const ReducedProblem &problem, const Zone &stretch)
    return 0.5 * (stretch.from.position + stretch.to.position);
 }
 
-/// What is said of an edge at an end of the line.
+/// The message about an edge at an end of the line.
 void refuse_at_end(const ReducedProblem &problem, ContactEdge &edge)
 {
    const std::size_t end = edge.side > 0 ? 0 : 1;
@@ -282,8 +282,9 @@ std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactSt
    const Index half = stretch.last - stretch.first + 1, size = mirrors ? 2 * half - 1 : half;
    require(size >= least, "a stretch of contact has ", size,
            " nodes; the fit of its edges needs at least ", least, ": refine the contact.");
-   // Of an odd number of nodes the one in the middle belongs to both edges, as on a plane of
-   // symmetry: either edge of a symmetric contact, whole or half, is fitted to as many nodes.
+   // With an odd number of nodes the middle one belongs to both edges, as on a plane of
+   // symmetry. Either edge of a symmetric contact, whole or half, is then fitted to the same
+   // number of nodes.
    const Index sum = stretch.first + stretch.last,
                left = from_mirror ? stretch.first
                       : to_mirror ? stretch.last
@@ -346,7 +347,7 @@ void read_k_n(const ReducedProblem &problem, const ContactState &loaded, Cracked
    };
    FittedIntensity &k_n = edge.k_n;
    k_n = fitted(0);
-   // What the error of the edge's position makes of it.
+   // The change by the error of the edge's position.
    double change = 0;
    for (const double shift : {-edge.position.error, edge.position.error})
    {

@@ -10,7 +10,8 @@ namespace cattaneo
 namespace
 {
 
-/// Of values whose limit at the edge is sought, at the nodes of the samples first … last - 1.
+/// Fits values, whose limit at the edge is sought, at the nodes of the samples first … last
+/// - 1.
 FittedIntensity fit(const std::vector<EdgeSample> &samples, const std::vector<double> &value,
                     std::size_t first, std::size_t last)
 {

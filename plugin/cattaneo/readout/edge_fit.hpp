@@ -62,8 +62,8 @@ struct UsableSamples
    std::size_t last = 0;            ///< one beyond the last
 };
 
-/** What a fit may use of tractions: the nodes of the window, or all but the skipped ones if it
-    is to be chosen. The node at the edge itself says nothing.
+/** The tractions that a fit may use: the nodes of the window, or all but the skipped ones if
+    the window is to be chosen. The node at the edge itself says nothing.
     @param pressed nodes without pressure do not count
     InputError for bad arguments, nodes on both sides of the edge, and fewer nodes than
     FitSettings::least_nodes. */

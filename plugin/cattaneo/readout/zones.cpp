@@ -134,7 +134,7 @@ ZoneBorder stick_edge(const Bracket &bracket, const VectorXd &reserve2)
    return edge;
 }
 
-/// What edges are extrapolated from, one entry a node.
+/// Data from which edges are extrapolated, one entry for each node.
 struct Profiles
 {
    std::vector<NodeState> states;

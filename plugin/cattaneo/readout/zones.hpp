@@ -44,13 +44,13 @@ std::vector<int> chain_numbers(const ReducedProblem &problem);
 
     Displacements are smoother than nodal forces, since the edge of the discrete solution is a
     node: against finer meshes, opening and slip are right to about 0.05 spacings, pressure to
-    0.2. That is luck which no one mesh can vouch for: the estimate of the error is the change
-   when other nodes are used, but not less than a quarter of a spacing, half of it where a
-   straight line was all that the nodes allow or pressure all there is, and a whole one where
-   there are too few nodes: the edge is then the middle between the two that it lies between, as
-   is each end of a contact of one node, whose body may have any tilt. A border of stick or slip
-   k nodes from an end of the line that is a corner of one of the bodies and in contact, where
-   tractions are singular, has 16/k spacings at least, or its distance from that end.
+    0.2. A single mesh cannot vouch for that. The estimate of the error is the change when other
+    nodes are used, but at least a quarter of a spacing. It is half a spacing where the nodes
+    allow only a straight line or there is only pressure, and a whole one where there are too
+    few nodes. The edge is then the middle between its two neighbours. So is each end of a
+    contact of one node, whose body may have any tilt. A border of stick or slip k nodes from an
+    end of the line that is a corner of one of the bodies and in contact, where tractions are
+    singular, has 16/k spacings at least, or its distance from that end.
 
     With two tangential components |v - slip_origin| and |q| are lengths of vectors, and nodes
     that slip form one zone whatever their directions.

@@ -37,7 +37,7 @@ struct ClosedContact
 ClosedContact closed_contact(const ReducedProblem &problem,
                              const std::vector<Eigen::Index> &closed);
 
-/// What closed_contact() is to be made of.
+/// The input of closed_contact().
 struct StayedClosed
 {
    std::vector<Eigen::Index> nodes; ///< closed throughout the cycles, in increasing order

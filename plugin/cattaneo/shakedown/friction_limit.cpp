@@ -30,7 +30,7 @@ public:
    LimitReport find();
 
 private:
-   /// What a trial of a friction coefficient came to.
+   /// The result of a trial coefficient of friction.
    struct Trial
    {
       ConeSolution solution;

@@ -13,9 +13,9 @@ namespace cattaneo
 
 /** A shakedown limit by Melan's static theorem ([Melan 1936], thesis 4.3.2): is there a slip v,
     constant in time, with which all nodes stick, closed (w = 0), throughout the load cycle?
-    What is proven of it is proven for a contact whose nodes all stay closed: with nodes that
-    open it is another problem, whose marches may shake down above the limit but at those nodes
-    (transient.hpp); see closed_contact for contacts that are partly open throughout. The limit
+    Its bounds are proven for a contact whose nodes all stay closed. With nodes that open the
+    problem is different, and marches may shake down above the limit except at those nodes
+    (transient.hpp). closed_contact is for contacts that are partly open throughout. The limit
     is the upper one, λ2: above it every start ends in cyclic slip; below it some start shakes
     down, and all do if the problem is uncoupled (lower_limit.hpp). Where the stuck tractions
     are singular, at the edges of contact, it may be the mesh that decides, and then the limit
@@ -94,8 +94,8 @@ struct LimitReport
    /// The safe side: `lower` of a load factor, infinite if it is unlimited, `upper` of a
    /// friction coefficient.
    double limit = 0;
-   /// Proven: plain arithmetic shows the slip below to be admissible, …. Of an unlimited load
-   /// that is only held to round-off: the factor up to which it is.
+   /// Proven: plain arithmetic shows the slip below to be admissible, …. For an unlimited load
+   /// that is only held to round-off it is the factor up to which that holds.
    double lower = 0;
    double upper = 0; ///< … and weak duality no other to be (friction: the other way round)
    /// Largest (|q| - f p) / nodal force over nodes and vertices at the limit, from slip, A and
@@ -126,12 +126,12 @@ struct LimitReport
    {
       return status == LimitStatus::certified || status == LimitStatus::bracketed;
    }
-   /// What is assumed, of which starts the limit speaks, and whether it is one of the mesh
-   /// only: a sentence each. None without a limit.
+   /// Three sentences: the assumption, the starts for which the limit holds, and whether it is
+   /// a limit of the mesh only. None without a limit.
    std::vector<std::string> statement() const;
 };
 
-/// What the bounds of all limits assume.
+/// The assumption of the bounds of all limits.
 inline constexpr const char *limit_assumption =
    "all nodes of the contact stay closed throughout the cycle";
 

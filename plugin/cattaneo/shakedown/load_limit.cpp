@@ -88,7 +88,7 @@ public:
 
 private:
    LimitReport finish(LimitStatus status, const std::string &message);
-   /// Of the constant loads of a programme.
+   /// The largest clearance under the constant loads of a programme.
    Clearance largest_clearance(const ConeProgramme &constant);
    /// A slip in proportion to the load factor that holds the varying loads by itself holds them
    /// however large they are: this one does, proven up to a load factor.

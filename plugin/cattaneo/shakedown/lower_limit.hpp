@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// What is known of the lower limit λ1, and why.
+/// The state of knowledge of the lower limit λ1, and the reason.
 enum class LowerLimitKind
 {
    uncoupled, ///< B = 0: every start shakes down below λ2 [Klarbring 2007]
@@ -62,11 +62,10 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
 
     It is the best that pressures alone can prove. Where an admissible state has a node without
     pressure, as the corners of a square punch on a similar half-plane above f = 0.6, no λ1 is
-    proven. What is then is proven with some nodes set apart: the inequality stands as long as
-    they stick, and what their slip adds is in proportion to it, so that slip of which there is
-    no end includes slip without end at one of them. Nothing is asked of q* there, and of their
-    pressure only that the contact is closed. Where slip does go on, marches show
-    (find_counter_example). */
+    proven. The proof then sets some nodes apart. The inequality holds as long as these stick,
+    and their slip adds a term in proportion to it. Slip that never ends therefore includes slip
+    without end at one of them. Nothing is asked of q* there, and of their pressure only that
+    the contact is closed. Where slip does go on, marches show (find_counter_example). */
 struct LowerLimitReport
 {
    LowerLimitKind kind = LowerLimitKind::none; ///< what is known

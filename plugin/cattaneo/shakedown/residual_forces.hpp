@@ -6,8 +6,8 @@
 namespace cattaneo
 {
 
-/** What a slip that is locked in does to the contact forces while the contact is closed (w = 0,
-    thesis 4.11–4.13): residual tangential forces r = A v, and with them the normal forces B v.
+/** Contact forces of a locked-in slip while the contact is closed (w = 0, thesis 4.11–4.13):
+    residual tangential forces r = A v, and the normal forces B v.
 
        v = flexibility r + any rigid slip,   B v = transfer r,   rigidᵀ r = 0
 

@@ -27,11 +27,11 @@ bool solved(FrictionStatus status)
    return status == FrictionStatus::converged || status == FrictionStatus::not_unique;
 }
 
-/// What is no slip, over the elastic slip, and no loss, over the scale of losses.
+/// The slip, over the elastic slip, and the loss, over the scale of losses, that count as none.
 constexpr double nothing = 1e-9;
 
-/// The way of each node that bears at some time of a cycle, cycle by cycle. What it goes while
-/// it is apart counts too: the next cycle brings it back.
+/// The way of each node that bears at some time of a cycle, cycle by cycle. Its motion while it
+/// is open counts too, because the next cycle reverses it.
 class CycleWay
 {
 public:

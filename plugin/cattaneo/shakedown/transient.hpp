@@ -29,13 +29,15 @@ struct TransientSettings
    void validate() const;
 };
 
-/** What the slip came to, as it is measured:
-    - of a steady cycle by its slip: a node slips that bears at some time of the cycle and moves
-      by more than 1e-9 of TransientReport::elastic_slip in it, however little that loses;
-    - of a cycle that is not steady yet by its loss: the loss has ended when it is below
-      TransientSettings::shaken_down and falls towards nothing: three losses, ten cycles apart,
-      that are continued as a geometric series leave less than half of the last one. A cycle
-      whose loss falls like that is not steady, however little its slip changes.
+/** The verdict on the slip, and its measure:
+
+    - A steady cycle is judged by its slip. A node slips if it bears at some time of the cycle
+      and moves by more than 1e-9 of TransientReport::elastic_slip in it, however little that
+      loses.
+    - A cycle that is not steady yet is judged by its loss. The loss has ended when it is below
+      TransientSettings::shaken_down and falls towards zero: three losses, ten cycles apart,
+      continued as a geometric series, leave less than half of the last one. A cycle whose loss
+      falls like that is not steady, however little its slip changes.
 
     Above an upper limit that is known (TransientSettings::upper) nothing is said to have shaken
     down: a slip that seems to have ended is `slips_and_opens` if nodes open, however little
@@ -123,7 +125,7 @@ struct CounterExampleSettings
    void validate() const;
 };
 
-/// What the search found.
+/// The result of the search.
 struct CounterExample
 {
    bool found = false;     ///< a start that cycles
@@ -132,7 +134,7 @@ struct CounterExample
    double dissipation = 0; ///< of its steady cycle, at nodes that stay closed
    double quiet = 0;       ///< the largest load factor tried at which every start shook down
    /// The smallest load factor tried at which a start ended in nodes that open and slip in
-   /// every cycle, infinite if none did: of a contact that is free to open λ1 is no more.
+   /// every cycle, infinite if none did. λ1 of a contact that is free to open is no larger.
    double opens = std::numeric_limits<double>::infinity();
    Eigen::VectorXd opening_start; ///< that start
    int marches = 0;               ///< number of marches

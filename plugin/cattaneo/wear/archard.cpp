@@ -80,7 +80,7 @@ struct PositiveMean
    double value = 0, by_from = 0, by_to = 0;
 };
 
-/// Of a node along its way, over the threshold.
+/// Mean pressure of a node along its slip, above the threshold.
 PositiveMean pressure(const ReducedProblem &problem, const WearLaw &law, const Rubbing &rub,
                       Index i)
 {

@@ -114,7 +114,7 @@ struct Way
    bool jumped = false;  ///< the last cycles were jumped over
 };
 
-/// What is noticed on the way that is handed out.
+/// Remarks on the way whose results are returned.
 struct Noticed
 {
    VectorXd mark; ///< depth of a cycle, a while ago
@@ -323,7 +323,7 @@ bool WearMarch::is_severe(const WearCycle &cycle) const
    return bound > 1 && explicit_limit(problem_, cycle) < 2;
 }
 
-/// What a part of the march wears off and loses. None if it was not found.
+/// Wear and loss of a part of the march. None if it was not found.
 std::optional<Taken> WearMarch::taken_by(const WearCycle &cycle, bool handed_out)
 {
    Taken taken{cycle.depth, cycle.loss};
@@ -483,24 +483,24 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
            extrapolated(one.loss, two.loss, three.loss)};
    result.bend = largest(best.depth - (3 * three.depth - 2 * two.depth));
    const VectorXd sum = best.depth; // of cycles between those at the start and at the end
-   // Updates after each cycle wear off more: half of what a cycle wears less at the end of the
-   // jump than at its start, as cycles a third of the jump apart say.
+   // Updates after each cycle wear off more: half of the fall of the wear of a cycle from the
+   // start of the jump to its end, which cycles a third of the jump apart show.
    const VectorXd steps = 1.5 * (looked_at[1].depth - looked_at[2].depth);
    best.depth += steps;
    best.loss += 1.5 * (looked_at[1].loss - looked_at[2].loss);
    result.unseen = 0.1 * largest(steps);
-   // What grows is not extrapolated to less than nothing.
+   // A growing quantity is not extrapolated below zero.
    for (Index i = 0; i < best.depth.size(); ++i)
    {
       if (best.depth[i] > 0 && best.loss[i] >= 0) { continue; }
       best.depth[i] = three.depth[i];
       best.loss[i] = three.loss[i];
    }
-   // What passes is no wear of the jump: after marched cycles it is lost, after a jump it comes
-   // of the gap that has changed at once.
+   // A transient is no wear of the jump. After marched cycles it is gone, and after a jump it
+   // comes from the sudden change of the gap.
    const double passing = from.jumped ? 0.0 : std::max(0.0, first.passing - largest(first.lag));
    result.error = result.bend + passing;
-   // What the gap adds as it changes goes with the square of what a cycle wears off.
+   // The contribution of the changing gap goes with the square of the wear of a cycle.
    const double slower = best.depth.maxCoeff() / (cycles * first.depth.maxCoeff());
    if (first.depth.maxCoeff() > 0)
    {
@@ -703,7 +703,7 @@ WearReport WearMarch::run()
          report_.message = "the wear was asked to stop";
          break;
       }
-      // What pieces of a cycle wear off as the gap follows them no cycle at one gap tells.
+      // A cycle at one gap does not show the wear of its pieces when the gap follows them.
       const bool may_jump = settings_.tolerance > 0 && settings_.update == GapUpdate::cycle &&
                             jumps_ && done() >= rest_;
       goes_on = (may_jump && jump()) || march_on();

@@ -66,7 +66,7 @@ struct WearSettings
    void validate() const;
 };
 
-/// Of a cycle that was marched, or a jump over several.
+/// A cycle that was marched, or a jump over several.
 struct WearRecord
 {
    double cycles = 0;      ///< so far, at its end
@@ -78,7 +78,7 @@ struct WearRecord
    double error = 0; ///< estimate of the largest error of depth so far, by all jumps
 };
 
-/// What a march with wear came to.
+/// The result of a march with wear.
 struct WearReport
 {
    FrictionStatus status = FrictionStatus::converged; ///< of the whole of it
@@ -87,11 +87,11 @@ struct WearReport
    long marched =
       0; ///< cycles marched to their end, also those that only look where a jump leads
    long jumps = 0; ///< over cycles that were not marched
-   /** Estimate of the largest error of depth at the end that comes of jumps, 0 if there were
-       none: the largest distance, so far, between this way and one whose jumps are twice as
-       long, or half of the errors of single jumps if that is more, and what both may have
-      alike. It has in it how errors of early jumps grow. Infinite: the way is too unstable for
-       an estimate, as `remark` says. */
+   /** Estimate of the largest error of depth at the end that comes from jumps, 0 without jumps.
+       It is the largest distance so far between this computation and one whose jumps are twice
+       as long, or half of the errors of single jumps if that is more. The errors that both may
+       share are added. It has in it how errors of early jumps grow. Infinite: the way is too
+       unstable for an estimate, as `remark` says. */
    double error = 0;
    /// Whether depths are estimated to be right to WearSettings::tolerance.
    bool reached = true;

@@ -83,7 +83,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
                                                     : cycle.report.message;
       return true;
    };
-   // Of a state that stands beyond the opening part nothing of it is left to march.
+   // If the state is already beyond the opening part, nothing of that is left to march.
    if (fails(cycles.opening(result.contact, none))) { return result; }
    const WearCycle first = cycles.repeated(result.contact, none, 1e-8);
    if (fails(first)) { return result; }

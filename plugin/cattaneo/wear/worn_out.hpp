@@ -27,16 +27,16 @@ struct WornOut
    std::vector<CutOffContact> cut_off;
 };
 
-/** The fully worn state of partial slip, without the cycles that lead there: nodes that slip
-    carry nothing, nodes that stick stay where they are, which is one linear problem at each
-    point of the cycle; depth is what overlaps at any of them.
+/** The fully worn state of partial slip, without the cycles that lead there. Slipping nodes
+    carry nothing and sticking nodes keep their place, which is one linear problem at each point
+    of the cycle. The depth is the largest overlap at any of these points.
 
     The nodes that stick are those of the unworn cycle. Where A = C and B = 0 (half-planes of
     one material) and pressures do not vary in the cycle they stay the same while the surfaces
-    wear [Ciavarella 1999]. Otherwise the worn contact is marched: nodes that slip then
-    under pressure, or open, are left out, and the problem is solved again with the slip that is
-    locked in now, until a cycle takes no more than 1e-8 of the energy of the unworn one. That
-    is a state in which wear ends; the one that a march comes to may be another where nodes
+    wear [Ciavarella 1999]. Otherwise the worn contact is marched. Nodes that then slip under
+    pressure, or open, are left out, and the problem is solved again with the slip that is now
+    locked in. This ends when a cycle takes no more than 1e-8 of the energy of the unworn one.
+    That is a state in which wear ends; the one that a march comes to may be another where nodes
     stick that it finds worn.
 
     Wear is that of any law without a threshold: the final state does not depend on k, as long
@@ -44,9 +44,8 @@ struct WornOut
 
     `contact`: a state at the beginning of the cycle (or before the opening part) of the unworn
     problem. Status: converged; stalled if the cycle never repeats itself or the set is not
-    found; stopped, asked before each set that is tried; gross_sliding if no node is found that
-    sticks, where wear may have no end; or of a march without equilibrium. InputError as
-    wear(). */
+    found; stopped, which is asked before each set; gross_sliding if no node sticks, where wear
+    may have no end; or the status of a march without equilibrium. InputError as wear(). */
 WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
                  const ContactState &contact, const MarchSettings &settings = {});
 

@@ -6,8 +6,8 @@
 namespace cattaneo
 {
 
-/// A node as one boundary element knows it. Of `node`, the weight and the tangent are those of
-/// this element, and the arc length counts from its first node.
+/// A node of one boundary element. Weight and tangent of `node` are those of this element, and
+/// its arc length counts from the first node of the element.
 struct SegmentNode
 {
    int id = 0; ///< the same on all ranks and in all elements

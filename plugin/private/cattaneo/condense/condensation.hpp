@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// What load patterns do to a body whose contact nodes are clamped, in global components.
+/// The effect of load patterns on a body whose contact nodes are clamped, in global components.
 struct ClampedLoads
 {
    Eigen::MatrixXd forces;   ///< contact forces, one column a pattern
@@ -16,7 +16,7 @@ struct ClampedLoads
    Eigen::MatrixXd reaction;
 };
 
-/// What a solver finds of a body, in global components, of contact dofs that are free.
+/// The results of a solver for a body, in global components, for contact dofs that are free.
 struct Condensation
 {
    Eigen::MatrixXd S;
@@ -44,7 +44,7 @@ struct ContactDofs
    std::vector<int> free_positions() const;
 };
 
-/// Of a line whose body has so many dofs; InputError if the line is not sound
+/// The dofs of a line whose body has so many dofs. InputError if the line is not sound
 /// (ContactLine::validate), is of another formulation, or its dofs are not from 0 to dofs - 1.
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
 
@@ -54,12 +54,12 @@ void require_unmoved(const ContactLine &line, const std::string &pattern,
                      const std::vector<int> &moved);
 
 /// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
-/// Of `loads` names and controls alone are asked for. InputError as of meet_supports().
+/// Only names and controls of `loads` are used. InputError as of meet_supports().
 CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
                               const ContactDofs &contact, Condensation found);
 
-/// What condense() finds before it turns to the frames of the line; `contact`: the free ones of
-/// contact_dofs().
+/// The results of condense() before it turns to the frames of the line; `contact`: the free
+/// ones of contact_dofs().
 Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
                                 const BodySolver *alike);
 

@@ -9,7 +9,7 @@
 namespace cattaneo
 {
 
-/// What a row of a stiffness holds on its diagonal and beside it.
+/// Entries of a row of a stiffness on its diagonal and beside it.
 struct RowEntries
 {
    double diagonal = 0;

@@ -13,7 +13,7 @@ namespace cattaneo
     about as much. It is infinite where S does not resist a motion that it should.
 
     One motion says S u; a random one, of the same energy in every direction, has its share of
-    whichever is worst. Of a matrix E = L⁻¹ (S - S*) L⁻ᵀ, S = L Lᵀ, and r standard normal
+    whichever is worst. For a matrix E = L⁻¹ (S - S*) L⁻ᵀ, S = L Lᵀ, and r standard normal
     vectors ω
 
        ‖E‖ <= 10 √(2/π) max ‖E ω‖  but for a probability of 10⁻ʳ
@@ -28,8 +28,8 @@ public:
    StiffnessProbes(const Eigen::MatrixXd &S, const Eigen::MatrixXd &motions);
    /// Motions of the contact, one a column; none if S has lost its definiteness.
    const Eigen::MatrixXd &motions() const { return u_; }
-   /// Of differences of forces at these motions, one a column: 10 √(2/π) max ‖L⁻¹ d‖; infinite
-   /// without motions.
+   /// The bound from differences of forces at these motions, one in each column: 10 √(2/π) max
+   /// ‖L⁻¹ d‖; infinite without motions.
    double bound(Eigen::MatrixXd differences) const;
 
 private:

@@ -33,8 +33,8 @@ struct GmshMesh
 
    /// InputError for a number that is there already, or a place that is not finite.
    void add_node(long number, const std::array<double, 3> &x);
-   /// Of the nodes before (InputError); a quadrilateral of 8 nodes (16) is given its middle
-   /// one, which is where its own geometry has it. Points are left out.
+   /// Adds an element of nodes that were added before (InputError). A quadrilateral of 8 nodes
+   /// (16) gets a middle node, at the place that its geometry gives. Points are left out.
    void add_element(long number, long type, std::vector<long> tags, std::vector<long> own);
    /// In Gmsh's format 2.2.
    std::string text() const;

@@ -14,11 +14,11 @@ namespace cattaneo
 
        |q + a p| ≤ f p + s0 + θ s1,   q = q0_j + θ q1_j + r,   p = p0_j + θ p1_j + M r,
 
-    rigidᵀ r = 0. Coulomb's cones have neither the skew a nor the strengths s. Of another law,
-    each pair of straight pieces of its bounds for slip forward and backward is such a cone: the
-    columns of all matrices are the vertices with the first pieces, then again with the second
-    ones, and so on. With one tangential component it is a linear programme, with two (torsion)
-    a second-order cone programme. p ≥ 0 is implied. */
+    rigidᵀ r = 0. Coulomb's cones have neither the skew a nor the strengths s. For another law
+    each pair of straight pieces of its bounds for slip forward and backward is such a cone. The
+    columns of all matrices are the vertices with the first pieces, then with the second ones,
+    and so on. With one tangential component it is a linear programme, with two (torsion) a
+    second-order cone programme. p ≥ 0 is implied. */
 struct ConeProgramme
 {
    const ResidualForces *residual = nullptr; ///< not owned
@@ -40,7 +40,7 @@ struct ConeProgramme
 
    Eigen::Index nodes() const { return friction.rows(); }
    Eigen::Index components() const { return loads.q0.rows() / friction.rows(); }
-   /// What the forces {q; p} leave of the bounds' right side, f p + s0 + θ s1, and q + a p.
+   /// The right side of the bounds, f p + s0 + θ s1, and q + a p for the forces {q; p}.
    Eigen::MatrixXd bound(double theta, const Eigen::MatrixXd &p) const;
    Eigen::MatrixXd skewed(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p) const;
 };

@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// What the searches for a limit of the load and of friction have in common.
+/// The common part of the searches for a limit of the load and of friction.
 class LimitSearch
 {
 protected:
@@ -15,7 +15,7 @@ protected:
    LimitSearch(const ReducedProblem &reduced, const ResidualForces &residual, StuckForces loads,
                const LimitSettings &settings);
 
-   /// The report with this outcome. What is proven stands, whoever wanted it to stop.
+   /// The report with this outcome. Proven bounds stand, even if the search was stopped.
    LimitReport ended(LimitStatus status, const std::string &message);
    /// One cone programme, counted in the report.
    ConeSolution solve(const ConeProgramme &programme, const ConeStart &start);

@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// What one cycle does to each node (all size n).
+/// The effect of one cycle on each node (all of size n).
 struct WearCycle
 {
    Eigen::VectorXd depth; ///< that it loses
@@ -18,9 +18,10 @@ struct WearCycle
    double negligible = 0;   ///< depth that round-off may wear
    SlipRange range;
    MarchReport report;
-   /// Of repeated(): how much more or less a node lost in the cycles on the way there, at most.
+   /// From repeated(): the largest difference by which a node lost more or less in the cycles
+   /// on the way there.
    double passing = 0;
-   /// Of repeated(): how much more a node lost in the first of them.
+   /// From repeated(): by how much more a node lost in the first of these cycles.
    Eigen::VectorXd lag;
 
    bool found() const
@@ -73,8 +74,8 @@ private:
    const WornIncrementObserver watch_;
 };
 
-/// What `cycles` cycles like this one take off when the pressures are those at their end, size
-/// n, ≥ 0; empty if they were not found.
+/// The wear of `cycles` cycles like this one with the pressures at their end, size n, ≥ 0.
+/// Empty if these were not found.
 Eigen::VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle,
                               double cycles);
 
