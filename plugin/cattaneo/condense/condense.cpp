@@ -13,7 +13,7 @@ namespace cattaneo
 namespace
 {
 
-/// What equal bodies share.
+/// Data that equal bodies share.
 struct FactoredStiffness
 {
    SharedMatrix K;
@@ -46,12 +46,15 @@ public:
    {
       ++counters.back_substitutions;
       const FactoredStiffness &of = *stiffness;
+      // The body follows the contact displacements less those that the loads alone would give.
+      // The factor turns this difference into forces on its last dofs, and one solution then
+      // gives the whole field.
       const Eigen::VectorXd moved = displacements - contact * multipliers;
       Eigen::VectorXd rhs(of.keep.size());
       rhs.head(of.interior()) = interior * multipliers;
       rhs.tail(of.contact) = of.factor->push(moved);
       Eigen::VectorXd U = of.factor->solve(rhs);
-      U.tail(of.contact) = displacements; // what was put in comes out to the last bit
+      U.tail(of.contact) = displacements; // the input, to the last bit
       Eigen::VectorXd field = Eigen::VectorXd::Zero(of.K.size());
       field(of.keep) = U;
       field(of.fixed) = prescribed * multipliers;
@@ -82,8 +85,10 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
    {
       if (!elsewhere[dof]) { made->keep.push_back(dof); }
    }
+   // The contact dofs go last, so that the trailing block of the factor is S.
    made->keep.insert(made->keep.end(), contact.begin(), contact.end());
-   // With springs on the contact dofs a body needs no supports; S is freed of them exactly.
+   // Springs on the contact dofs make a body without supports positive definite. They are
+   // subtracted from S exactly.
    for (int dof : contact)
    {
       made->shift += body.K.diagonal(dof) / static_cast<double>(contact.size());
@@ -109,8 +114,8 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
 }
 
 /// InputError for a load whose displacements are so large that their forces, sums of |K||U|,
-/// are lost in round-off: it moves what nothing holds but round-off, a part that hangs on one
-/// node, or a support left out.
+/// are lost in round-off. Such a load moves a part that only round-off holds, as a part on a
+/// single node, or a body without a support.
 void require_held(const FactoredStiffness &of, const AssembledBody &body, const BodyLoad &load,
                   const Eigen::VectorXd &forces, const Eigen::VectorXd &U)
 {
@@ -119,7 +124,7 @@ void require_held(const FactoredStiffness &of, const AssembledBody &body, const 
                 all = forces.cwiseAbs().maxCoeff(), far = U.cwiseAbs().maxCoeff();
    const SparseView K = of.K.view();
    const Eigen::Map<const Eigen::VectorXd> entries(K.valuePtr(), K.nonZeros());
-   // Bodies of up to some hundred entries a row need no closer look.
+   // A cheap bound comes first. It suffices for bodies of up to some hundred entries in a row.
    if (1e3 * eps * entries.cwiseAbs().maxCoeff() * far <= 1e-3 * all) { return; }
    Eigen::VectorXd size = Eigen::VectorXd::Zero(of.K.size());
    size(of.keep) = U.cwiseAbs();
@@ -243,6 +248,7 @@ Condensation condense_by_factor(const AssembledBody &body, const std::vector<int
    found.free = find_free_motions(body, contact);
    auto solver = std::make_shared<FactorSolver>();
    const auto *other = dynamic_cast<const FactorSolver *>(alike);
+   // A body with an equal operator, such as a shifted copy, has the same factor.
    if (other && other->stiffness->stands_for(body, contact))
    {
       solver->stiffness = other->stiffness;
@@ -265,6 +271,8 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
                               const BodySolver *alike)
 {
    const FreeMotions free = find_free_motions(body, contact);
+   // First condenses the body with its blocks fixed. Each block motion is a load of
+   // displacements.
    const std::vector<BlockMotion> blocks = std::move(body.blocks);
    body.blocks.clear();
    const auto count = static_cast<Eigen::Index>(body.loads.size()),
@@ -291,6 +299,8 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
    const Eigen::MatrixXd F = found.clamped.forces, F_d = F.rightCols(moved),
                          stiffness = H.bottomRightCorner(moved, moved),
                          felt = H.bottomLeftCorner(moved, count) - V;
+   // The blocks then move until the forces on them vanish, which is a minimum of the energy. A
+   // motion without resistance stays zero.
    solver->by_contact = -solve_semidefinite(stiffness, F_d.transpose());
    solver->by_load = -solve_semidefinite(stiffness, felt);
    // The energy at the minimum over d.
@@ -311,7 +321,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        const CondensedBody *alike)
 {
    body.validate();
-   // Supports that the program which wrote the stiffness eliminated.
+   // Supports may have been eliminated by the program that wrote the stiffness.
    if (const std::vector<int> gone = body.eliminated(); body.grounded && !gone.empty())
    {
       AssembledBody supported = body;
@@ -319,6 +329,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       std::merge(body.fixed.begin(), body.fixed.end(), gone.begin(), gone.end(),
                  std::back_inserter(fixed));
       supported.fixed = std::move(fixed);
+      // Their rows are fixed from now on, and the body is condensed again.
       supported.K = without_links(body.K, gone);
       return condense(supported, line, alike);
    }

@@ -17,7 +17,7 @@ struct WallOfChords
    double wall = 0;             ///< its thickness without
 };
 
-/// What curve_sides() found and did.
+/// The result of curve_sides().
 struct SmoothSides
 {
    int edges = 0;       ///< elements of the sides that are taken for chords of smooth curves

@@ -11,7 +11,7 @@ namespace cattaneo
 namespace
 {
 
-/// What of an old file stays.
+/// The part of an old file that stays.
 std::string kept_lines(const std::string &file, const std::string &header, double time,
                        const std::function<void(const std::string &)> &check)
 {

@@ -20,8 +20,10 @@ FittedIntensity fit(const std::vector<EdgeSample> &samples, const std::vector<do
    Eigen::VectorXd t(n);
    for (Eigen::Index i = 0; i < n; i++) { t[i] = samples[first + i].distance / scale; }
    const Eigen::Map<const Eigen::VectorXd> values(value.data() + first, n);
+   // Fits a straight line in the distance t. Its value at t = 0 is the intensity.
    const ScatteredFit linear(powers(t, 1), values);
    const double standard = linear.error(Eigen::Vector2d(1, 0));
+   // The error is the scatter of the fit, or the change by a parabola if that is larger.
    const double one_more = least_squares(powers(t, 2), values)(0);
 
    FittedIntensity result;
@@ -37,6 +39,7 @@ FittedIntensity fit_in_window(const UsableSamples &usable, const std::vector<dou
                               bool chosen)
 {
    if (!chosen) { return fit(usable.samples, value, usable.first, usable.last); }
+   // Tries all windows from the first node on, and takes the one with the smallest error.
    std::vector<FittedIntensity> fits;
    for (std::size_t last = usable.first + FitSettings::least_nodes; last <= usable.last; last++)
    {
@@ -98,6 +101,7 @@ UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &
    for (std::size_t i = 0; i < tractions.position.size(); i++)
    {
       const double x = tractions.position[i] - tractions.edge, p = tractions.pressure[i];
+      // A node at the edge, or without pressure, tells nothing of the field.
       if (x == 0 || (pressed && p <= 0)) { continue; }
       if (side == 0) { side = x > 0 ? 1 : -1; }
       require(x * side > 0, "node ", i, " at ", tractions.position[i],
@@ -133,6 +137,7 @@ EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
       const double t = sample.distance;
       require(t < tractions.width, "a node in contact is ", t, " from the edge at ",
               tractions.edge, ", beyond the width of the contact, ", tractions.width, ".");
+      // The factor (1 - t/width) has the other edge, so that a Hertz contact is fitted exactly.
       const double root = std::sqrt(t * (1 - t / tractions.width));
       normal.push_back(sample.pressure / root);
       tangential.push_back(sample.shear * root);

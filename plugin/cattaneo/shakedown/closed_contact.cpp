@@ -31,7 +31,8 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    const auto n_closed = static_cast<Eigen::Index>(contact.closed.size());
    const auto n_open = static_cast<Eigen::Index>(contact.open.size());
 
-   // Unknowns of a set of nodes in {v; w}: component by component, then normal.
+   // Numbers of the unknowns of some nodes in {v; w}: each tangential component of all nodes,
+   // then the normal one.
    const auto unknowns = [&](const std::vector<Eigen::Index> &nodes)
    {
       std::vector<Eigen::Index> list;
@@ -44,6 +45,7 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    const std::vector<Eigen::Index> kept = unknowns(contact.closed),
                                    freed = unknowns(contact.open);
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
+   // The forces {q; p} of each load with clamped nodes, one pattern in each column.
    Eigen::MatrixXd forces((c + 1) * n, patterns);
    Eigen::VectorXd sign(patterns); // of Fᵀ u in the conjugates of the loads
    for (Eigen::Index k = 0; k < patterns; ++k)
@@ -53,12 +55,15 @@ ClosedContact closed_contact(const ReducedProblem &problem,
       sign[k] = pattern.control == Control::force ? -1 : 1;
    }
    const Eigen::MatrixXd &K = problem.K;
+   // Eliminates the motion of the open nodes, which carry no force: S = K_cc - K_co K_oo⁻¹
+   // K_oc, and likewise for the load patterns and the response of the loads.
    Eigen::MatrixXd S = K(kept, kept), F = forces(kept, Eigen::all);
    Eigen::MatrixXd H = problem.H;
    Eigen::MatrixXd by_kept(freed.size(), kept.size()), by_load(freed.size(), patterns);
    if (n_open > 0)
    {
       DenseCholesky factor;
+      // If the open nodes can move freely, their gaps are not determined and cannot be checked.
       require(factor.compute(K(freed, freed)), "closed contact: the motion of the ", n_open,
               " open nodes is not determined: their stiffness is not positive definite");
       by_kept = -factor.solved(K(freed, kept));
@@ -88,6 +93,7 @@ ClosedContact closed_contact(const ReducedProblem &problem,
       reduced.patterns.push_back({problem.patterns[k].name, problem.patterns[k].control,
                                   F.col(k).head(m), F.col(k).tail(n_closed)});
    }
+   // Data of the nodes are those of the closed ones, in the same order.
    reduced.friction = problem.friction(contact.closed);
    if (!problem.laws.empty())
    {
@@ -101,8 +107,8 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    }
    if (problem.dofs.size()) { reduced.dofs = problem.dofs(contact.closed, Eigen::all); }
 
-   // Runs of nodes that still follow each other; what ends at a node that is gone ends there
-   // open.
+   // Chains of closed nodes that still follow each other. A chain that ends at an open node has
+   // an `open` end there.
    const std::vector<Eigen::Index> &left = contact.closed;
    for (const ContactChain &chain : problem.chains)
    {
@@ -137,6 +143,7 @@ ClosedContact closed_contact(const ReducedProblem &problem,
       if (std::count(held.begin(), held.end(), kept[k])) { reduced.held.push_back(k); }
    }
 
+   // With w = 0 at the closed nodes the gaps of the open ones follow from slip and loads.
    contact.open_by_slip = by_kept.bottomLeftCorner(n_open, m);
    contact.open_by_load = by_load.bottomRows(n_open);
    contact.open_gap = problem.gap(contact.open);

@@ -91,7 +91,7 @@ private:
       std::vector<Vector3d> s, z;
       VectorXd low_s, low_z, high_s, high_z; // of the bounds x >= -reach and x <= reach
    };
-   /// What a step has to bring about: of the products of s and z.
+   /// The change that a step must achieve in the products of s and z.
    struct Aim
    {
       std::vector<Vector3d> cones;
@@ -158,7 +158,8 @@ InteriorPoints::InteriorPoints(const ConeProgramme &programme, const ConeSetting
    high_ = VectorXd::Constant(1 + m_, programme.reach);
    high_[0] = programme.ceiling;
    low_[0] = std::min(-programme.ceiling, -programme.reach);
-   // Starts where it is told to, each cone and its dual in the middle of their product.
+   // Starts at the given point. Each s is moved inside of its cone, and z is chosen so that all
+   // products of s and z are equal.
    x_ = VectorXd::Zero(1 + m_);
    x_[0] = start.theta / unit;
    if (start.r.size()) { x_.tail(m_) = inverse_q.cwiseProduct(start.r); }
@@ -232,11 +233,12 @@ void InteriorPoints::take_residuals()
    high_off_ = high_s_ - (high_ - x_);
 }
 
-/// H = Gᵀ W⁻² G and its factor.
+/// Computes H = Gᵀ W⁻² G and its factor, and the border for the balance of the rigid motions.
+/// False if it has no factor.
 bool InteriorPoints::scale_and_factor()
 {
    scaling_.resize(cones_);
-   // Of {θ, ρ₁, ρ₂, π} of each node, summed over its cones.
+   // The part of H for {θ, ρ₁, ρ₂, π} of each node, summed over its cones.
    std::vector<Eigen::Matrix4d> own(n_, Eigen::Matrix4d::Zero());
    for (Index k = 0; k < cones_; ++k)
    {
@@ -267,6 +269,7 @@ bool InteriorPoints::scale_and_factor()
       for (Index i = 0; i < n_; ++i)
       {
          const Eigen::Matrix4d &N = own[i];
+         // π = transfer ρ couples all nodes. Its part of H is the square of a matrix.
          rooted.row(i) = std::sqrt(N(3, 3)) * transfer_.row(i);
          H.col(0).tail(m_) += N(0, 3) * transfer_.row(i).transpose();
          for (Index a = 0; a < 2; ++a)
@@ -279,12 +282,14 @@ bool InteriorPoints::scale_and_factor()
       H.bottomRightCorner(m_, m_) = -minus_square(-H.bottomRightCorner(m_, m_), rooted).eval();
    }
    H.row(0).tail(m_) = H.col(0).tail(m_).transpose();
-   // Where it is singular to round-off a little more does no harm: steps are corrected.
+   // If H is singular to round-off, a slightly larger diagonal makes it definite. It does no
+   // harm, because steps are corrected.
    H.diagonal() *= 1 + 1e-14;
    if (!factor_.compute(std::move(H))) { return false; }
    if (balance_.rows() == 0) { return true; }
    MatrixXd right = MatrixXd::Zero(1 + m_, balance_.rows());
    right.bottomRows(m_) = balance_.transpose();
+   // The balance is a border of H: its Schur complement is balance H⁻¹ balanceᵀ.
    held_ = factor_.solved(right);
    return border_.compute(balance_ * held_.bottomRows(m_));
 }
@@ -309,7 +314,7 @@ InteriorPoints::Aim InteriorPoints::aim(double target, const Step *affine) const
    return wanted;
 }
 
-/// Newton's step to products of s and z as they are aimed at, and residuals zero.
+/// Newton's step to the products of s and z in `aim`, and to zero residuals.
 InteriorPoints::Step InteriorPoints::direction(const Aim &aim) const
 {
    // With s = h + G x and W dz + W⁻¹ ds = λ\aim =: e:

@@ -34,6 +34,7 @@ public:
         first_definition(first_balance + rigid),
         first_cone(first_definition + (disc ? cones : 0))
    {
+      // Scales all forces by the typical force of their node, and θ by its own scale.
       const Eigen::VectorXd inverse = programme.force_scale.cwiseInverse();
       const Eigen::VectorXd inverse_q = inverse.replicate(c, 1);
       const double unit = programme.theta_scale;
@@ -85,6 +86,7 @@ public:
       const double none = 2e19; // what Ipopt takes for infinite
       std::fill(x_low, x_low + variables, -none);
       std::fill(x_high, x_high + variables, none);
+      // θ has a ceiling, so that an unlimited load does not run away.
       x_high[0] = programme.ceiling;
       for (Eigen::Index k = 0; k < m; ++k)
       {
@@ -93,6 +95,7 @@ public:
          x_high[1 + k] = programme.r_high.size() ? programme.r_high[k] / s : programme.reach;
       }
       std::fill(x_low + first_t, x_low + variables, 0.0);
+      // Balance and definitions are equations. The cones are inequalities with a margin.
       std::fill(g_low, g_low + first_cone, 0.0);
       std::fill(g_high, g_high + first_cone, 0.0);
       std::fill(g_low + first_cone, g_low + constraints, settings.margin);
@@ -114,6 +117,7 @@ public:
       }
       for (Eigen::Index k = 0; disc && k < cones; ++k)
       {
+         // t is kept away from the tip of its cone, where |q|²/t has no derivative.
          x[first_t + k] = std::max(limit(x, k), 1e-2);
       }
       if (init_z)

@@ -35,7 +35,7 @@ private:
    {
       ConeSolution solution;
       bool better = false;   ///< a slip was found that less friction holds than any before
-      bool excluded = false; ///< no slip does with this friction (proven)
+      bool excluded = false; ///< no slip suffices with this friction (proven)
    };
 
    void forget_best();
@@ -67,14 +67,15 @@ private:
    int undecided_ = 0; // trials since one moved a bound
 };
 
-/// From the stuck state, by typical forces.
+/// Starts again from the stuck state, with typical forces as weights.
 void FrictionLimit::forget_best()
 {
    start_ = {0, no_slip_, {}};
    weight_ = force_scale_.replicate(1, loads_.vertices());
 }
 
-/// Takes a slip over if it is the best: its largest |q| / p, if all nodes press.
+/// Keeps a slip if it needs less friction than the best one so far. It needs its largest |q| /
+/// p, if all nodes are pressed. Round-off counts against it, so that the bound is proven.
 void FrictionLimit::take(const Eigen::VectorXd &slip)
 {
    const SlippedForces at =
@@ -100,7 +101,8 @@ void FrictionLimit::start_from_settings()
    start_.r = reduced_.A() * settings_.start->slip;
 }
 
-/// A slip that this friction wedges without any load holds all loads when it is large.
+/// If friction can wedge the contact without any load, a large multiple of that slip holds all
+/// loads. Tries multiples until they no longer improve the bound.
 void FrictionLimit::take_wedged(ConeProgramme programme)
 {
    programme.loads.q0.setZero();
@@ -121,6 +123,8 @@ FrictionLimit::Trial FrictionLimit::attempt(double friction)
    if (!usable(trial.solution)) { return trial; }
    const Eigen::VectorXd slip = residual_.flexibility * trial.solution.r;
    ConeMechanism mechanism = trial.solution.mechanism;
+   // Weak duality bounds the clearance from above. A negative bound proves that no slip
+   // suffices with this friction.
    const double bound = weak_duality_bound(programme, reduced_, mechanism, slip_size(slip));
    const double before = report_.upper;
    take(slip);
@@ -144,14 +148,16 @@ double FrictionLimit::next_friction(const Trial &trial)
 {
    if (trial.excluded || trial.solution.outcome == ConeOutcome::ceiling || undecided_ > 0)
    {
-      // Where so much friction wedges the contact, any residual state is held and there is no
-      // best one. Halve the interval until there is one; where the solver does not say, ask
-      // elsewhere in it.
+      // With enough friction to wedge the contact any residual state is held, and there is no
+      // best one. The interval is halved until there is one. If the solver gives no answer,
+      // other places in the interval are tried.
       constexpr double share[] = {0.5, 0.5, 0.25, 0.75, 0.1};
       forget_best();
       return report_.lower + share[undecided_] * (highest() - report_.lower);
    }
    start_ = {0, trial.solution.r, trial.solution.mechanism};
+   // Dinkelbach's step: the friction that the best slip needs, a little less, so that the next
+   // trial either improves or excludes it.
    return report_.upper * (1 - 0.5 * settings_.tolerance);
 }
 

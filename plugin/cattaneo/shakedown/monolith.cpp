@@ -56,6 +56,8 @@ NodeList nodes_away_from_ends(const ReducedProblem &problem, double share)
    require(arc.size() == n && n > 0, "the nodes away from the ends of the line: there are ",
            arc.size(), " arc lengths of ", n, " nodes, there must be one for each");
    const auto &chains = problem.chains;
+   // A loop has no ends, and a plane of symmetry is no end. Beyond such a plane the line goes
+   // on as its mirror image, so that its length counts twice.
    const bool loop = chains.size() == 1 && chains[0].loop,
               from_mirror = !chains.empty() && chains.front().mirrored_at(0),
               to_mirror = !chains.empty() && chains.back().mirrored_at(1);
@@ -81,6 +83,7 @@ Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
    const Eigen::VectorXd p = forces.tail(n);
    const Eigen::VectorXd q =
       m == n ? Eigen::VectorXd(forces.head(n)) : tangential_lengths(forces.head(m), n);
+   // A node without pressure cannot stick with any friction.
    return (p.array() > 0).select(q.cwiseQuotient(p), infinity);
 }
 
@@ -111,6 +114,7 @@ Incipience incipient_separation(const ReducedProblem &problem, const LoadCycle &
    Incipience first{infinity, -1};
    for (const Eigen::Index i : chosen_nodes(problem, nodes))
    {
+      // The node separates when p0 + λ p1 becomes negative.
       const double at = first_positive(0, -0.5 * forces.p1(i, vertex), -forces.p0(i, vertex));
       if (at < first.load_factor) { first = {at, i}; }
    }

@@ -62,16 +62,20 @@ void WearLaw::validate(const ReducedProblem &problem) const
 namespace
 {
 
-/// Mean of what is positive of a line between two values, with its derivatives by these.
+/// Mean of the positive part of a straight line between two values, with its derivatives by
+/// both.
 struct PositiveMean
 {
    PositiveMean(double from, double to)
    {
       const double low = std::min(from, to), high = std::max(from, to);
+      // Below zero throughout: no wear.
       if (high <= 0) { return; }
       value = 0.5 * (from + to);
       by_from = by_to = 0.5;
+      // Above zero throughout: the mean of both ends.
       if (low >= 0) { return; }
+      // Else only the share of the line above zero counts, with half of its highest value.
       const double share = high / (high - low), by_high = share - 0.5 * share * share;
       value = 0.5 * high * share;
       by_from = from > to ? by_high : 0.5 * share * share;
@@ -100,7 +104,7 @@ VectorXd worn_depth(const ReducedProblem &problem, const WearLaw &law,
    for (Index i = 0; i < depth.size(); ++i)
    {
       if (depth[i] == 0) { continue; }
-      // Without a weight it has no area, and no pressure.
+      // A node without a weight has no area, and so no pressure.
       depth[i] *= problem.weights[i] > 0 ? pressure(problem, law, rub, i).value : 0.0;
    }
    return depth;

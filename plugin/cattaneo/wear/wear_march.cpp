@@ -94,21 +94,21 @@ double largest(const Eigen::MatrixXd &x)
    return x.size() ? x.cwiseAbs().maxCoeff() : 0.0;
 }
 
-/// What some cycles take.
+/// Depth and loss of some cycles, of each node.
 struct Taken
 {
    VectorXd depth, loss;
 };
 
-/// A state on its way, with what is known of a cycle there.
+/// One computation in progress: its state, and the properties of a cycle there.
 struct Way
 {
    WearState state; ///< with the contact from which the march goes on
-   /// A cycle at this depth that repeats itself, and the contact after it.
+   /// A cycle at this depth that repeats itself, and the contact at its end (`looked`).
    std::optional<WearCycle> look;
    ContactState looked;
-   /// How much more a cycle wears off that is marched than one that repeats itself, each node:
-   /// the gap has changed before it by what the cycle before it wore.
+   /// By how much more, at each node, a marched cycle wears than one that repeats itself. The
+   /// reason is that the previous cycle has changed the gap.
    VectorXd lag;
    double lag_error = 0; ///< of it, after a jump
    bool jumped = false;  ///< the last cycles were jumped over
@@ -124,7 +124,7 @@ struct Noticed
    double unsettled = -1; ///< last cycle whose worn gap has no equilibrium; negative: none
 };
 
-/// Where a jump leads.
+/// The result of a jump.
 struct Landing
 {
    Way way;
@@ -134,7 +134,7 @@ struct Landing
    double unseen = 0; ///< of it, what shorter jumps may have as well
 };
 
-/// A record that is not handed out yet.
+/// A record that is not yet given to the observer.
 struct Kept
 {
    WearRecord record;
@@ -236,7 +236,7 @@ bool WearMarch::fails(const WearCycle &cycle)
    return !cycle.found();
 }
 
-/// The state of a way as it is read: the contact has the gap that is worn now.
+/// The state as the user reads it. Its contact is settled on the worn gap.
 WearState WearMarch::settled(const Way &way)
 {
    WearState state = way.state;
@@ -253,7 +253,7 @@ WearState WearMarch::settled(const Way &way)
    return state;
 }
 
-/// Adds what some cycles have taken.
+/// Adds depth and loss of some cycles to a state.
 void WearMarch::add(Way &way, const Taken &taken, double cycles) const
 {
    WearState &state = way.state;
@@ -269,8 +269,8 @@ void WearMarch::hand_out(Kept &&kept)
    if (kept.state && observer_) { observer_(*kept.state, kept.record); }
 }
 
-/// The fine way, where it stands now. Nothing is said of jumps before all of them are known to
-/// do.
+/// Records the fine computation as it stands. Records since the first jump are kept back until
+/// the jumps are accepted, because errors may still discard them.
 void WearMarch::hand_out(double covered, double loss)
 {
    const WearState &state = fine_.state;
@@ -314,7 +314,7 @@ void WearMarch::notice(const WearCycle &cycle)
    seen.marked_at = done();
 }
 
-/// Whether a cycle wears off so much that its own update is implicit.
+/// Whether a cycle wears so much that its own update must be implicit.
 bool WearMarch::is_severe(const WearCycle &cycle) const
 {
    // No eigenvalue is larger than the largest sum of a row, which is cheap.
@@ -376,7 +376,8 @@ bool WearMarch::march_on()
    return true;
 }
 
-/// See Way::lag, of a depth where a cycle repeats itself. None if a cycle was not found.
+/// Computes Way::lag at a depth where a cycle repeats itself: marches cycles on a gap that
+/// grows by one cycle's wear each. None if a cycle was not found.
 std::optional<VectorXd> WearMarch::lag_ahead(ContactState &contact, const VectorXd &depth,
                                              const WearCycle &cycle)
 {
@@ -388,7 +389,8 @@ std::optional<VectorXd> WearMarch::lag_ahead(ContactState &contact, const Vector
       if (!next.found()) { return {}; }
       if (k > 1)
       {
-         // Without what a cycle wears more at a gap that is worn k times: with each the same.
+         // The wear of cycle k contains k times a constant change by the growing gap. Without
+         // that part the rest must agree from cycle to cycle.
          const VectorXd found = next.depth - cycle.depth - k * (next.depth - before);
          const bool same =
             k > 2 && largest(found - lag) <=
@@ -402,8 +404,8 @@ std::optional<VectorXd> WearMarch::lag_ahead(ContactState &contact, const Vector
    return lag;
 }
 
-/// Makes sure that a cycle is known that repeats itself at the present depth, well enough for
-/// so many.
+/// Marches cycles at the present depth until one repeats itself, closely enough for a jump over
+/// `cycles` of them. False if none does.
 bool WearMarch::look_at(Way &way, double cycles)
 {
    if (way.look) { return true; }
@@ -411,9 +413,9 @@ bool WearMarch::look_at(Way &way, double cycles)
    WearCycle cycle =
       cycles_.repeated(contact, way.state.depth, repeats_to(), slow(way), cycles);
    if (!cycle.found()) { return false; }
-   // The first cycle after one that was marched is such a one itself. After a jump the gap goes
-   // on as the next cycles will change it: back and forth nodes would not slip that slip where
-   // it goes on.
+   // After a marched cycle the first of these cycles already contains the lag. After a jump it
+   // is computed on a gap that grows as the next cycles will change it. On a fixed gap some
+   // nodes would not slip that slip on a growing one.
    const VectorXd predicted = way.lag;
    way.lag = cycle.lag;
    way.lag_error = 0;
@@ -430,7 +432,7 @@ bool WearMarch::look_at(Way &way, double cycles)
    return true;
 }
 
-/// Implicit jumps in equal parts. False if the contact is not found at the end of one of them.
+/// A jump in equal implicit parts. False if the contact is not found at the end of a part.
 bool WearMarch::land(const Way &from, double cycles, int parts, Taken &taken,
                      ContactState &contact, std::vector<WearCycle> &looked_at)
 {
@@ -458,8 +460,8 @@ bool WearMarch::land(const Way &from, double cycles, int parts, Taken &taken,
    return true;
 }
 
-/// Where a jump from a state that was looked at leads, with a look at it there; none if that
-/// was not found.
+/// A jump from a state with a known cycle (look_at()), and a known cycle at its end. None if
+/// either is not found.
 std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
 {
    Landing result{from, {}};
@@ -474,7 +476,8 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    {
       return {};
    }
-   // To parts without length, through the results of one, two and three.
+   // Extrapolates the results of one, two and three parts to parts without length. The weights
+   // are those of a parabola in the length of a part.
    const auto extrapolated =
       [](const VectorXd &of_one, const VectorXd &of_two, const VectorXd &of_three)
    { return VectorXd(0.5 * of_one - 4 * of_two + 4.5 * of_three); };
@@ -517,8 +520,8 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
          best.depth[i] += more[i];
          best.loss[i] += more[i] * first.loss[i] / first.depth[i];
       }
-      // Such a node wears because its neighbours do. All jumps leave it where it is, and what
-      // it is left out by may grow without end.
+      // Such a node wears only because its neighbours do. Jumps do not move it, and that error
+      // may grow without end. So it counts ten times, which shortens the jump.
       result.error += 10 * left_out;
       result.unseen += 0.25 * largest(more) + left_out;
    }
@@ -526,12 +529,13 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    add(result.way, best, cycles);
    result.way.jumped = true;
    if (!look_at(result.way, cycles)) { return {}; }
-   // Between the start and the end what the gap adds changes from one to the other.
+   // The contribution of the changing gap varies between start and end of the jump. Half of the
+   // change is its error.
    result.unseen += 0.5 * cycles * result.way.lag_error;
-   // The layer is no more than a model of how a cycle wears less as the gap grows. Cycles that
-   // were marched on the way judge it: the jump wears off no more than its number of cycles
-   // times the most that one of them wears, and no less than that times the least. All jumps
-   // may fail so alike.
+   // The layer is only a model of how the wear of a cycle falls as the gap grows. The marched
+   // cycles limit it. The jump may wear at most its number of cycles times the largest wear of
+   // one of them, and at least that number times the smallest. All jumps may fail in the same
+   // way, so the excess also counts as unseen.
    VectorXd least = result.way.look->depth, most = least;
    for (const WearCycle &cycle : looked_at)
    {
@@ -540,9 +544,9 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    }
    const double outside =
       std::max({0.0, (cycles * least - sum).maxCoeff(), (sum - cycles * most).maxCoeff()});
-   // Nor does wear go on past the gap at which a node just touches: a node that the jump wore
-   // and that no longer comes to touch was worn too far, and on both ways alike, as nothing
-   // grows on.
+   // Wear stops at the gap at which a node just touches. A node that the jump wore and that
+   // then no longer touches was worn too far. Both computations have this error, because such a
+   // node wears no further.
    double past = 0;
    for (Index i = 0; i < best.depth.size(); ++i)
    {
@@ -557,11 +561,12 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    return result;
 }
 
-/// No jump now. False, as nothing was jumped over.
+/// Gives up the present jump. Returns false, because no cycles were jumped over.
 bool WearMarch::give_up(double cycles)
 {
    step_ = std::max(least_jump, 0.3 * cycles);
-   // Where jumps have hardly covered more cycles than they took, those are marched instead.
+   // If the jumps so far have covered hardly more cycles than they marched, march these cycles
+   // instead.
    const double covered = done() - fork_.state.cycles;
    const double from = done();
    if (paired_ && covered < 2.0 * static_cast<double>(cycles_.marched - marched_at_fork_))
@@ -573,7 +578,7 @@ bool WearMarch::give_up(double cycles)
    return false;
 }
 
-/// Back to where both ways parted.
+/// Returns both computations to the state before the first jump.
 void WearMarch::begin_again()
 {
    fine_ = fork_;
@@ -584,8 +589,8 @@ void WearMarch::begin_again()
    step_ = 2 * least_jump;
 }
 
-/// Where the error comes to more than the tolerance, both ways begin again with shorter jumps,
-/// in the end with none.
+/// If the error exceeds the tolerance, both computations begin again with shorter jumps, in the
+/// end with none. True if so.
 bool WearMarch::errors_have_grown(const Way &fine)
 {
    const double tolerated = settings_.tolerance * fine.state.depth.maxCoeff();
@@ -617,16 +622,17 @@ bool WearMarch::jump()
    if (!look_at(fine_, cycles)) { return give_up(cycles); }
    if (!paired_) { coarse_ = fine_; }
    if (!look_at(coarse_, cycles)) { return give_up(cycles); }
-   // Where a node wears only because it wears, a cycle that repeats itself says nothing of it.
+   // If the lag is a large part of the wear, nodes wear mainly because the gap changes. A cycle
+   // at a fixed gap then tells nothing about a jump.
    const double pace = fine_.look->depth.maxCoeff();
    if (largest(fine_.lag) > std::max(0.1 * pace, settings_.tolerance * slow(fine_)))
    {
       return give_up(cycles);
    }
-   // An update that cycles cannot bear is no sum of many.
+   // A cycle with an implicit update of its own cannot be summed over many.
    if (is_severe(*fine_.look)) { return give_up(cycles); }
 
-   // The long jump, and two of half its length from where the other way stands.
+   // The coarse computation takes the long jump, the fine one two jumps of half the length.
    const std::optional<Landing> whole = landing(coarse_, cycles);
    if (!whole) { return give_up(cycles); }
    const double added = whole->taken.depth.maxCoeff() + slow(fine_) * cycles,
@@ -645,7 +651,8 @@ bool WearMarch::jump()
    if (!second) { return give_up(cycles); }
    if (half->error + second->error > allowed) { return shorter(half->bend + second->bend); }
    const double apart = largest(second->way.state.depth - whole->way.state.depth);
-   // The jump is not as smooth as it seems if both ways part by more than its error.
+   // If both results differ by more than the error of the jump, it is less smooth than it
+   // seems.
    if (apart > apart_ + allowed) { return shorter(8 * (apart - apart_)); }
 
    paired_ = true;
@@ -678,7 +685,8 @@ WearReport WearMarch::run()
    fine_.state.marched.reset();
    if (cycles_.begins(fine_.state.contact))
    {
-      // A state stands before the opening part or after.
+      // The state may stand before or after the opening part. Its wear counts, but it is no
+      // cycle.
       ContactState contact = fine_.state.contact;
       const WearCycle opening = cycles_.opening(contact, fine_.state.depth);
       goes_on = !fails(opening);

@@ -24,6 +24,8 @@ VectorXd overlap_of_free_nodes(const ReducedProblem &problem, const LoadHistory 
 {
    const Index n = problem.nodes(), m = problem.slips();
    VectorXd u(m + n);
+   // Sticking nodes keep their slip and stay closed. All other unknowns are free, and their
+   // forces zero.
    u << slip, -problem.gap;
    std::vector<Index> open;
    for (Index row = 0; row < m + n; ++row)
@@ -69,7 +71,8 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    require(history.cycle_start >= 0, "worn out: the load history has no cycle");
    const Index n = problem.nodes();
    const VectorXd none = VectorXd::Zero(n);
-   // Nodes that touch without force open and close by round-off: no path to be followed.
+   // Worn nodes touch without force, and open and close by round-off. The exact path would
+   // follow each such change, so increments are used.
    MarchSettings by_increments = settings;
    by_increments.stepping = Stepping::fixed;
    WearCycles cycles(problem, law, history, settings),
@@ -92,7 +95,8 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    result.range = first.range;
    if (first.idle())
    {
-      // Also where no node sticks throughout the cycle, as bodies part in it.
+      // The cycle takes no energy, so nothing wears. This holds even if no node sticks
+      // throughout the cycle, because the bodies part in it.
       result.status = FrictionStatus::converged;
       result.depth = none;
       result.overlap = -first.opening;
@@ -113,7 +117,8 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
       result.stick[i] = !slips[i] && first.range.always_closed()[i];
    }
    ProgressReport progress(settings.monitor);
-   // Sets that lose nodes end soon; slip that is locked in may shift with them.
+   // Each search removes nodes from the set, so it ends soon. Some more searches are allowed,
+   // because locked-in slip may shift with the set.
    for (Index most = n + 20; result.searches < most;)
    {
       progress.note(std::numeric_limits<double>::quiet_NaN(), result.searches);
@@ -124,6 +129,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
          return result;
       }
       ++result.searches;
+      // The depth is the overlap that all but the sticking nodes would have.
       result.overlap = overlap_of_free_nodes(problem, history, result.contact.v, result.stick);
       if (result.overlap.size() == 0 ||
           std::count(result.stick.begin(), result.stick.end(), true) == 0)
@@ -134,6 +140,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
          return result;
       }
       result.depth = result.overlap.cwiseMax(0.0);
+      // Two cycles on that gap check it, the first of them lets the slip settle.
       WearCycle worn = check.march(result.contact, result.depth, false);
       if (worn.found()) { worn = check.march(result.contact, result.depth, false); }
       if (fails(worn)) { return result; }
