@@ -44,11 +44,11 @@ struct AssembledBody
 
    /** Rows that are not fixed and have nothing but their diagonal, or nothing at all, where
        other rows of their component have more: supports that the program which wrote K
-       eliminated. Entries below 1e-12 of the largest one beside a diagonal are nothing, unless
-       the diagonal is as small, and so are those that are round-off of a large diagonal: the
-       row is a support for all others to round-off then, be it eliminated or a spring that
-       much stiffer. condense() takes the rows for fixed if the body is `grounded`,
-       and refuses them else: as springs they move nothing of the body. A component none of
+       eliminated. Entries below 1e-12 of the largest one beside a diagonal count as none,
+       unless the diagonal is as small. So do those that are round-off of a large diagonal. Such
+       a row is a support for all others, to round-off, whether it was eliminated or is a much
+       stiffer spring. condense() takes these rows as fixed if the body is `grounded`. Otherwise
+       it refuses them, because as springs they would not move the body. A component none of
        whose rows is connected to another is a bed of springs, and kept. */
    std::vector<int> eliminated() const;
    /// A warning about eliminated() rows that condense() takes as fixed. Empty if there are

@@ -31,10 +31,11 @@ struct LineNode
 };
 
 /** A boundary element of order k on the line. Displacements on it are polynomials of degree k
-    through its k + 1 nodes, which stand at the Gauss–Lobatto points of order k on 0 <= s <= 1
-    (MFEM's nodal basis of a segment; order 1: the ends, order 2: the middle as well). So is the
-    element itself, x(s). Where the mesh's geometry is of higher order, x(s) interpolates it,
-    and weights and arc lengths are those of the mesh's own curve. */
+    through its k + 1 nodes. These lie at the Gauss–Lobatto points of order k on 0 <= s <= 1
+    (MFEM's nodal basis of a segment; order 1: the ends, order 2: the middle as well). The
+    element itself, x(s), is such a polynomial too. Where the mesh's geometry is of higher
+    order, x(s) interpolates it, and weights and arc lengths are those of the mesh's own curve.
+    */
 struct LineElement
 {
    /// Numbers of its nodes in the line, in their order along it; -1 of a node on the axis,
@@ -67,21 +68,21 @@ struct LineChain
    Eigen::Index first = 0; ///< of ContactLine::nodes
    Eigen::Index nodes = 0; ///< how many of them follow
    bool loop = false;      ///< the last node is followed by the first
-   /** How the boundary of the body goes on beyond the first and the last node, whatever it is
-       called there: smoothly if it turns by less than smooth_turn, or than 1.5 times as much
-       as the line itself between its last two elements (a polygon stands for a curve), up to
-       corner_turn; else at a corner. A loop goes on smoothly. Unknown where no outer edge goes
-       on. */
+   /** How the boundary of the body goes on beyond the first and the last node, under any
+    * attribute. It goes on smoothly if it turns by less than smooth_turn. Up to corner_turn it
+    * may also turn 1.5 times as much as the line itself between its last two elements, because
+    * a polygon stands for a curve. Else there is a corner. A loop goes on smoothly. Unknown
+    * where no outer edge goes on. */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    /// In their order along the chain. Without them it is not known whether elements of two
    /// lines match: nodes are paired by their places and weights then, and nothing else.
    std::vector<LineElement> elements = {};
-   /// At ends on a plane of symmetry that is a support: the angle, in radians, by which the
-   /// line is off the normal of that plane: its tangent where it is straight, else that of the
-   /// curve through its last nodes. Known once the body is condensed.
+   /// At ends on a plane of symmetry that is a support: the angle in radians between the line
+   /// and the normal of that plane. The line has its own tangent where it is straight, else
+   /// that of the curve through its last nodes. Known once the body is condensed.
    std::array<double, 2> off_symmetry{0, 0};
    /// Degrees. A line that meets a support at no more than that, off 90 degrees, ends at a
-   /// plane of symmetry: coordinates of six digits may leave so much. From there on it is one
+   /// plane of symmetry: coordinates of six digits may have that error. From there on it is one
    /// only if the line curves so that it meets its own mirror image without a corner.
    static constexpr double symmetry_turn = 0.01;
    static constexpr double smooth_turn =
@@ -159,10 +160,10 @@ struct ContactLine
    /// decade costs two.
    static constexpr double least_ratio = 1e-6;
 
-   /// InputError that names the node or the element if there are no nodes, a place is not
-   /// finite (or not beyond the axis), a tangent no unit vector, a weight or a spacing not
-   /// positive, distances between neighbours jump by more than least_ratio, or if chains or
-   /// elements do not follow the nodes.
+   /// InputError that names the node or the element. There must be nodes, with finite places
+   /// (beyond the axis, if there is one), unit tangents, and positive weights and spacings.
+   /// Distances between neighbours must not jump by more than least_ratio. Chains and elements
+   /// must follow the nodes.
    void validate() const;
 };
 

@@ -34,23 +34,23 @@ struct SmoothSides
    std::vector<SideChord> folding;
 };
 
-/** Takes sides of a mesh with straight edges for the smooth curves that their vertices are of
-    (smooth_curve()), where they are, and moves the nodes of elements of `order` 2 or more onto
-    them: the mesh gets nodes of that order (mfem::Mesh::SetCurvature), of which those along the
-    sides, and those within the elements beside them, move; vertices stay. All sides of the body
-    are curved, as a wall between a curve and chords has not its thickness; the answer lists
-    those in contact. Real corners stay, and so do sides whose edges are curved already.
-   Elements beside the sides that would fold take the next ones with them; where that does not
-   help edges of free sides stay straight, then those of sides in contact
-   (SmoothSides::folding), and only theirs. With `order` 1 nothing is moved: contact_line()
-   knows of curves by itself.
+/** Reads sides of a mesh with straight edges as the smooth curves through their vertices
+    (smooth_curve()), where there are such, and moves the nodes of elements of `order` 2 or more
+    onto them. The mesh gets nodes of that order (mfem::Mesh::SetCurvature). Those along the
+    sides move, and those within the elements beside them. Vertices stay. All sides of the body
+    are curved, because a wall between a curve and chords would have a wrong thickness. The
+    answer lists the sides in contact. Real corners stay, and so do sides whose edges are curved
+    already. Elements beside the sides that would fold move the next ones with them. Where that
+    does not help, edges of free sides stay straight, then those of sides in contact
+    (SmoothSides::folding), and no others. With `order` 1 nothing is moved: contact_line() knows
+    of curves by itself.
 
     @param attributes boundary attributes of the sides in contact
     @param curves of each boundary element the curve of the file that it is on, see
            read_mesh(); empty: not known
     @param planes boundary attributes that supports hold, which may be planes of symmetry: only
            there, and at x = 0, does a curve go on as its mirror image
-    @return what was done. InputError of an mfem::ParMesh: to be called before it is made. */
+    @return what was done. InputError for an mfem::ParMesh: call this before it is made. */
 SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &attributes,
                         const std::vector<int> &curves = {},
                         const std::vector<int> &planes = {});

@@ -58,16 +58,16 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
 
     K_N is fitted to the pressure of @a loaded. K_T is fitted to the shear of fully_stuck().
     Its singularity does not lie at the edge of contact but within a spacing of the last tied
-    node. Where it lies, an auxiliary stuck solution tells (a uniform misfit strain between the
-    bodies, singular at every edge); K_T is interpolated to the edge of contact between the
-    solutions that tie the nodes in contact and one node more at each edge. This brings the
-    error from first to second order in the spacing.
+    node. An auxiliary stuck solution shows where it lies (a uniform misfit strain between the
+    bodies, singular at every edge). K_T is interpolated to the edge of contact between two
+    solutions: one ties the nodes in contact, the other one node more at each edge. This brings
+    the error from first to second order in the spacing.
 
     @param pressed state after the normal load alone, before the cyclic loads
     @param loaded state at peak load: frictional, or fully stuck
-    InputError for a problem that is not plane or has no friction, for a contact line of several
-    pieces, for a closed line that is in contact where it begins, and for a contact with too few
-    nodes for the fit. */
+    InputError for a problem that is not plane or has no friction, and for a contact line of
+    several pieces. Also for a closed line that is in contact where it begins, and for a contact
+    with too few nodes for the fit. */
 std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
                                        const ContactState &pressed, const ContactState &loaded,
                                        CrackedBody cracked = CrackedBody::second,

@@ -63,16 +63,16 @@ struct UsableSamples
 };
 
 /** The tractions that a fit may use: the nodes of the window, or all but the skipped ones if
-    the window is to be chosen. The node at the edge itself says nothing.
+    the window is to be chosen. The node at the edge itself is not used.
     @param pressed nodes without pressure do not count
     InputError for bad arguments, nodes on both sides of the edge, and fewer nodes than
     FitSettings::least_nodes. */
 UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &settings,
                              bool pressed);
 
-/// One intensity and its relative error: the larger of the standard error of the fit and the
-/// change when one more term of the expansion is fitted; where the window is chosen, not less
-/// than the difference to windows of at most three times that error.
+/// One intensity and its relative error. The error is the larger of the standard error of the
+/// fit and the change when one more term of the expansion is fitted. Where the window is
+/// chosen, it is at least the difference to windows of at most three times that error.
 struct FittedIntensity
 {
    double value = 0.0;          ///< K_N or K_T, in the units of tractions and distances

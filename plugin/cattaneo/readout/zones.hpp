@@ -30,9 +30,9 @@ struct Zone
 std::vector<int> chain_numbers(const ReducedProblem &problem);
 
 /** Zones of a state along the contact line, in the order of the nodes, from settled_states().
-    No zone reaches from one chain of nodes to the next. Ends of chains are exact. A
-    closed line is cut where its arc length begins, or at the border before it, which has a
-    negative arc length then: the zones add up to the whole way round.
+    No zone reaches from one chain of nodes to the next. Ends of chains are exact. A closed line
+    is cut where its arc length begins, or at the border before it, which then has a negative
+    arc length. The zones add up to the whole line.
 
     Edges are read out between the nodes by extrapolating, to zero, what is smooth there:
     - end of contact: from inside the square of the pressure (which falls as the square root of
@@ -48,9 +48,9 @@ std::vector<int> chain_numbers(const ReducedProblem &problem);
     nodes are used, but at least a quarter of a spacing. It is half a spacing where the nodes
     allow only a straight line or there is only pressure, and a whole one where there are too
     few nodes. The edge is then the middle between its two neighbours. So is each end of a
-    contact of one node, whose body may have any tilt. A border of stick or slip k nodes from an
-    end of the line that is a corner of one of the bodies and in contact, where tractions are
-    singular, has 16/k spacings at least, or its distance from that end.
+    contact of one node, whose body may have any tilt. Tractions are singular at an end of the
+    line that is in contact and a corner of one of the bodies. A border of stick or slip k nodes
+    from such an end has an estimate of at least 16/k spacings, or its distance from that end.
 
     With two tangential components |v - slip_origin| and |q| are lengths of vectors, and nodes
     that slip form one zone whatever their directions.
@@ -67,10 +67,10 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
 /// The widest of some zones in the given state; first > last if there is none.
 Zone widest_zone(const std::vector<Zone> &zones, NodeState which);
 
-/** The widest stick zone, with the errors of its ends as borders of stick: one that ends where
-    the contact does, without a node of slip between, is known to a spacing only, since slip
-    between the last two nodes does not show. So is one that a single node holds: there may be
-    none. */
+/** The widest stick zone, with the errors of its ends as borders of stick. A zone that ends
+ * with the contact, without a node of slip between, is known to a spacing only, because slip
+ * between the last two nodes does not show. So is a zone of a single node, which may not exist.
+ */
 Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones);
 /// The same of a state.
 Zone stick_zone(const ReducedProblem &problem, const ContactState &state);

@@ -10,28 +10,27 @@ namespace cattaneo
 // A limit that is decided where the stuck tractions are singular is one of the mesh, which
 // changes with the spacing of its nodes, and not one of the bodies. There are two such places.
 
-/** The ends of the contact line, where corners are: of the work that the mechanism of a limit
-    dissipates, -q slip, the share that is done within 1 % of the length from either end of
-    the line, 0 to 1; a large one says that the limit is one of the mesh. NaN if the limit has
-    no mechanism.
+/** For the ends of the contact line, where corners are: the share of the work of a limit's
+    mechanism, -q slip, that is done within 1 % of the length from either end of the line. It is
+    0 to 1, and a large share shows a limit of the mesh. NaN if the limit has no mechanism.
     @param stuck of the same problem
     @param load_factor at which the mechanism moves */
 double share_of_ends(const ReducedProblem &problem, const StuckForces &stuck,
                      const LimitReport &limit, double load_factor);
 
-/** An end of contact within the line, where the pressure falls to zero and the stuck shear does
-    not: the last node at which a chain ends `open`, see closed_contact(), that feels shear from
-    the cycle; -1 if there is none.
+/** For an end of contact within the line, where the pressure falls to zero and the stuck shear
+    does not: the last node with shear from the cycle at which a chain ends `open`, see
+    closed_contact(). -1 if there is none.
     @param stuck of the same problem */
 Eigen::Index singular_end(const ReducedProblem &problem, const StuckForces &stuck);
 
-/** Why a limit is one of this mesh only, in one sentence without its full stop; empty if
-   nothing shows that it is. It is one where contact ends within its line (singular_end()), and
-   where more than a fifth of the mechanism's work is done at the ends of the line
-   (share_of_ends()).
+/** The reason why a limit is one of this mesh only, as one sentence without its full stop.
+    Empty if nothing shows that it is. A limit is one of the mesh if contact ends within its
+    line (singular_end()), or if more than a fifth of the mechanism's work is done at the ends
+    of the line (share_of_ends()).
     @param stuck of the same problem
     @param load_factor at which the mechanism moves
-    @param friction the limit is a friction coefficient, not a load factor */
+    @param friction the limit is a coefficient of friction, not a load factor */
 std::string mesh_statement(const ReducedProblem &problem, const StuckForces &stuck,
                            const LimitReport &limit, double load_factor, bool friction);
 

@@ -12,9 +12,9 @@ namespace cattaneo
        v = flexibility r + any rigid slip,   B v = transfer r,   rigidᵀ r = 0
 
     A is singular along the tangential rigid motions of a free body. Because the reduced
-    stiffness is positive semidefinite, B v = 0 wherever A v = 0, so the residual forces say
-    everything about the slip that matters. Friction and loads do not enter: compute once, reuse
-    along a sweep. */
+    stiffness is positive semidefinite, B v = 0 wherever A v = 0, so the residual forces
+    determine every effect of the slip. Friction and loads do not enter. Compute them once and
+    reuse them along a sweep. */
 struct ResidualForces
 {
    Eigen::MatrixXd flexibility; ///< generalised inverse of A, c·n × c·n, symmetric
@@ -34,10 +34,9 @@ ResidualForces residual_forces(const ReducedProblem &problem);
 
     over the motions that store energy; the spectral norm of C^(-1/2) B A^(-1/2) on the
     complement of the rigid motions. It does not change with units or with any change of basis
-    of slips or of openings (A → SᵀAS, C → TᵀCT, B → TᵀBS), so that on a family of meshes it
-    converges to the norm of the continuous operator instead of following the number of nodes.
-    For two half-planes it is |β| of [Dundurs 1969]; β = 0 is an uncoupled problem, for which
-    Melan's theorem holds. */
+    of slips or of openings (A → SᵀAS, C → TᵀCT, B → TᵀBS). On a family of meshes it therefore
+    converges to the norm of the continuous operator. For two half-planes it is |β| of [Dundurs
+    1969]; β = 0 is an uncoupled problem, for which Melan's theorem holds. */
 double degree_of_coupling(const ReducedProblem &problem);
 
 } // namespace cattaneo

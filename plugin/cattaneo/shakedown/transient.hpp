@@ -55,10 +55,11 @@ enum class TransientVerdict
 /// As it is printed, in words.
 const char *name(TransientVerdict verdict);
 
-/** The theorems behind limits are of a contact whose nodes all stay closed. Where nodes open in
-    the march, `opened`, its verdict is of another problem, and need not agree with a bound: at
-    the corner of a square punch a few nodes open and close for ever and lose 1e-7 of what the
-    first cycle does, below the upper limit and above. Such a contact has not shaken down. */
+/** The theorems behind limits hold for a contact whose nodes all stay closed. If nodes open in
+ * the march (`opened`), its verdict belongs to another problem and need not agree with a bound.
+ * At the corner of a square punch a few nodes open and close for ever, below the upper limit
+ * and above it. They lose 1e-7 of the loss of the first cycle. Such a contact has not shaken
+ * down. */
 struct TransientReport
 {
    FrictionStatus status = FrictionStatus::converged; ///< of the march
@@ -81,9 +82,9 @@ struct TransientReport
    Eigen::VectorXd cycle_slip;
    NodeList opened;        ///< nodes that are open at some time of the last cycle
    double opened_loss = 0; ///< dissipation at these in the last cycle
-   /// Loss of a cycle over that of the one before, at the nodes that are not `opened`:
-   /// geometric mean over the later half of the cycles before shakedown, all of them if it does
-   /// not shake down; 0 if there are too few.
+   /// Loss of a cycle over that of the one before, at the nodes that are not `opened`. It is
+   /// the geometric mean over the later half of the cycles before shakedown, or of all cycles
+   /// without shakedown. 0 if there are too few.
    double decay = 0;
    int steady_cycle = 0;               ///< as MarchReport
    int steady_period = 0;              ///< as MarchReport

@@ -11,10 +11,10 @@ namespace cattaneo
 
        depth rate = k (p - p_th)₊ |slip rate|,
 
-    p the pressure (nodal force over consistent weight) and k of both bodies together: where
-    they wear in the ratio k₁ : k₂ the depth is shared so. With `of_energy` k belongs to the
-    energy that friction takes per area, and f k stands in the place of k. Material that has
-    worn off is gone: there is no debris. */
+    p is the pressure (nodal force over consistent weight). k is that of both bodies together,
+    which share the depth in the ratio k₁ : k₂ of their own. With `of_energy` k belongs to the
+    energy that friction takes per area, and f k stands in the place of k. Worn material
+    disappears. There is no debris. */
 struct WearLaw
 {
    Eigen::VectorXd coefficient; ///< k of each node, size n, ≥ 0, in 1/pressure
@@ -32,9 +32,9 @@ struct WearLaw
    void validate(const ReducedProblem &problem) const;
 };
 
-/// Depth that each node (size n, ≥ 0) loses over an increment, with ½ (p₀ + p₁)|Δv| along its
-/// path, from where it begins to slip or turns; over a threshold the part of that line which is
-/// above it.
+/// Depth that each node (size n, ≥ 0) loses over an increment. It is k ½ (p₀ + p₁)|Δv|, from
+/// where the node begins to slip or reverses. With a threshold only the part of the pressure
+/// line above it counts.
 Eigen::VectorXd worn_depth(const ReducedProblem &problem, const WearLaw &law,
                            const ContactState &before, const ContactState &after);
 

@@ -47,10 +47,9 @@ struct WearSettings
    MarchSettings march; ///< of each cycle; its monitor watches all of them and is asked between
                         ///< two; steady states of slip end nothing
    GapUpdate update = GapUpdate::cycle; ///< when the gap follows
-   /** Cycles are jumped over where depths, at each cycle that has a record, are estimated to
-       differ by no more than this share of the largest one from those of all cycles marched:
-       see WearReport::error. 0: every cycle is marched, as they all are with
-       GapUpdate::piece. Allowed: from 1e-8 to 0.1. */
+   /** Largest estimated error of depths by jumps over cycles, at each cycle that has a record,
+       as a share of the largest depth (see WearReport::error). 0: every cycle is marched, as
+       with GapUpdate::piece. Allowed: from 1e-8 to 0.1. */
    double tolerance = 0;
    /// Whether the observer hears of what was marched or jumped over, between two numbers of
    /// cycles; empty: of all.
@@ -90,8 +89,8 @@ struct WearReport
    /** Estimate of the largest error of depth at the end that comes from jumps, 0 without jumps.
        It is the largest distance so far between this computation and one whose jumps are twice
        as long, or half of the errors of single jumps if that is more. The errors that both may
-       share are added. It has in it how errors of early jumps grow. Infinite: the way is too
-       unstable for an estimate, as `remark` says. */
+       share are added. It includes the growth of errors of early jumps. Infinite: the wear is
+       too unstable for an estimate, as `remark` says. */
    double error = 0;
    /// Whether depths are estimated to be right to WearSettings::tolerance.
    bool reached = true;
@@ -128,24 +127,24 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
 /** Wears a contact: marches the opening part of a history and then its cycle, `cycles` times
     over all (history.cycles is not asked), and takes off what each cycle wears.
 
-    Every cycle that is marched is exact along its path, see worn_depth(), and the worn volume
-    is k/f times the energy that friction took, to round-off, at every moment where all of k and
-    f are uniform and there is no threshold; so it is where cycles are jumped over, whose energy
-    is that of the volume.
+    Every marched cycle is exact along its path, see worn_depth(). If k and f are uniform and
+    there is no threshold, the worn volume is k/f times the energy that friction took, at every
+    moment and to round-off. This also holds where cycles are jumped over, because their energy
+    is computed from the volume.
 
     A jump over M cycles solves for the pressures at its end, p' = p - C (M c p' + openings) ≥
-    0, a contact problem with c a layer that gives way: it is stable for any M. Jumps of one,
-    two and three parts, each with a cycle of its own marched until it repeats itself, are
-    extrapolated to parts without length; to that comes what updates after each cycle wear off
-    more, and what a cycle wears more because the gap has changed before it. The result without
-    the single jump gives an error, by which the length of the jump is chosen.
+    0, which is a contact problem with a layer of compliance M c. It is stable for any M. Jumps
+    of one, two and three parts, each with a cycle of its own marched until it repeats itself,
+    are extrapolated to parts without length. Two corrections are added: the larger wear by
+    updates after each cycle, and the larger wear of a cycle because the gap has changed before
+    it. The result without the single jump gives an error, which sets the length of the jump.
 
-    Small errors of early jumps may grow. So the way is gone twice side by side, the second time
-    with jumps twice as long, and the distance between both is the estimate of the error. Where
-    it comes to more than the tolerance both begin again where the first jump began, with
-    shorter jumps, in the end with none. A jump that wears off more than its cycles times the
-   most, or less than that times the least, of what cycles marched on the way wear is shortened
-   too. With GapUpdate::piece all cycles are marched.
+    Small errors of early jumps may grow. Two computations therefore run side by side, the
+    second with jumps twice as long, and the distance between both is the estimate of the error.
+    If it exceeds the tolerance, both begin again at the first jump with shorter jumps, in the
+    end with none. A jump is also shortened if it wears more than its number of cycles times the
+    largest wear of a marched cycle, or less than that number times the smallest. With
+    GapUpdate::piece all cycles are marched.
 
     States are handed out with the gap worn: after a jump a cycle is marched there, and after a
     marched cycle the contact takes in what that cycle has worn off, under the same loads.
