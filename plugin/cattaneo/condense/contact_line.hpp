@@ -69,10 +69,10 @@ struct LineChain
    Eigen::Index nodes = 0; ///< how many of them follow
    bool loop = false;      ///< the last node is followed by the first
    /** How the boundary of the body goes on beyond the first and the last node, under any
-    * attribute. It goes on smoothly if it turns by less than smooth_turn. Up to corner_turn it
-    * may also turn 1.5 times as much as the line itself between its last two elements, because
-    * a polygon stands for a curve. Else there is a corner. A loop goes on smoothly. Unknown
-    * where no outer edge goes on. */
+       attribute. It goes on smoothly if it turns by less than smooth_turn. Up to corner_turn it
+       may also turn 1.5 times as much as the line itself between its last two elements, because
+       a polygon stands for a curve. Else there is a corner. A loop goes on smoothly. Unknown
+       where no outer edge goes on. */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    /// In their order along the chain. Without them it is not known whether elements of two
    /// lines match: nodes are paired by their places and weights then, and nothing else.

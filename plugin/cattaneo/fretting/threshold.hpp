@@ -25,7 +25,7 @@ struct CrackCycle
 };
 
 /** A contact edge with a crack and its load cycle. Stresses that the near-edge field omits can
- * be added. It is unconservative to leave the bulk stress out. */
+    be added. It is unconservative to leave the bulk stress out. */
 struct CrackedEdge
 {
    Edge edge;                    ///< at peak load

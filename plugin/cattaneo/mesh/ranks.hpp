@@ -9,7 +9,7 @@ namespace cattaneo
 {
 
 /** The ranks that share a mesh: those of an mfem::ParMesh, or this one alone. Its functions are
- * collective: every rank must call them, in the same order. The one place that speaks MPI. */
+    collective: every rank must call them, in the same order. The one place that speaks MPI. */
 class Ranks
 {
 public:

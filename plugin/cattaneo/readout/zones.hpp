@@ -68,8 +68,9 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
 Zone widest_zone(const std::vector<Zone> &zones, NodeState which);
 
 /** The widest stick zone, with the errors of its ends as borders of stick. A zone that ends
- * with the contact, without a node of slip between, is known to a spacing only, because slip
- * between the last two nodes does not show. So is a zone of a single node, which may not exist.
+    with the contact, without a node of slip between, is known to a spacing only, because slip
+    between the last two nodes does not show. So is a zone of a single node, which may not
+    exist.
  */
 Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones);
 /// The same of a state.

@@ -50,8 +50,8 @@ enum class LimitStatus
 const char *name(LimitStatus status);
 
 /** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
- * with opening ≥ f |slip|. This is the flow rule associated with the friction cone. For another
- * law than Coulomb's it is the sum over its pieces. */
+    with opening ≥ f |slip|. This is the flow rule associated with the friction cone. For
+    another law than Coulomb's it is the sum over its pieces. */
 struct CollapseMechanism
 {
    Eigen::MatrixXd slip;    ///< c·n × vertices
@@ -149,10 +149,10 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
                        const StuckForces &loads, const LimitSettings &settings = {});
 
 /** Smallest coefficient of friction, the same at all nodes, for the loads constant + @a
- * load_factor × varying. The problem's own friction is not used. InputError for a problem with
- * other laws. It is the least f of a quasi-convex problem. Each step finds the state with the
- * greatest clearance from the cones of a trial f. The largest |q|/p of that state is the next f
- * [Dinkelbach 1967], until duality shows that no state exists at f (1 - tolerance/2). */
+    load_factor × varying. The problem's own friction is not used. InputError for a problem with
+    other laws. It is the least f of a quasi-convex problem. Each step finds the state with the
+    greatest clearance from the cones of a trial f. The largest |q|/p of that state is the next
+    f [Dinkelbach 1967], until duality shows that no state exists at f (1 - tolerance/2). */
 LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                            const LimitSettings &settings = {});
 

@@ -56,10 +56,10 @@ enum class TransientVerdict
 const char *name(TransientVerdict verdict);
 
 /** The theorems behind limits hold for a contact whose nodes all stay closed. If nodes open in
- * the march (`opened`), its verdict belongs to another problem and need not agree with a bound.
- * At the corner of a square punch a few nodes open and close for ever, below the upper limit
- * and above it. They lose 1e-7 of the loss of the first cycle. Such a contact has not shaken
- * down. */
+    the march (`opened`), its verdict belongs to another problem and need not agree with a
+    bound. At the corner of a square punch a few nodes open and close for ever, below the upper
+    limit and above it. They lose 1e-7 of the loss of the first cycle. Such a contact has not
+    shaken down. */
 struct TransientReport
 {
    FrictionStatus status = FrictionStatus::converged; ///< of the march
