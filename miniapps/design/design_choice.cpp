@@ -277,8 +277,8 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
    design.variables = cattaneo::gap_variables(G);
    bound(design, G.cols(), 0, choice.most);
    // A flat start is crowned. A start with a gap may also be too round: other nodes come before
-   // the one that stays, so that no shape is left out; of bodies that are held, by their gaps.
-   // An odd power leans to one side or to the other.
+   // the one that stays, so that no shape is left out. For supported bodies their gaps decide.
+   // An odd power tilts the profile to one side or the other.
    for (Index j = 0; j < G.cols(); ++j)
    {
       const bool leans = !free && odd[j];

@@ -58,7 +58,7 @@ struct PadEdge : cattaneo::fretting::SolvedEdge
    bool resolved = false; ///< fewer spacings than two do not carry a slip zone, nor its energy
 };
 
-/// Tractions and bulk stress on the specimen at an instant of the steady cycle.
+/// Contact forces and bulk stress on the specimen at an instant of the steady cycle.
 struct PadInstant
 {
    Eigen::VectorXd shear, pressure; ///< forces of the contact nodes, along x and pressing

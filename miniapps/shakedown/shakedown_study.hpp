@@ -81,7 +81,7 @@ private:
    /// λ1: what is proven, if it is asked for or costs nothing, and what marches from many
    /// starts show.
    void lower();
-   /// The bound of λ1 that is proven except for slip at nodes near the ends.
+   /// Computes the bound of λ1 that is proven except for slip at nodes near the ends.
    void lower_apart(const cattaneo::LimitSettings &settings);
    Eigen::VectorXd traction(const Eigen::VectorXd &force) const;
    /// The limit whose optimal slip is drawn and marched from.

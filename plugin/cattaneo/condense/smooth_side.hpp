@@ -10,7 +10,7 @@ namespace cattaneo
 /** A smooth curve over a straight edge, through both of its ends. Seen along the edge with the
     body on the left, the curve leaves the chord to the right by the angle `begin` and comes
    back to it by the angle `end` (radians): both positive where the body is convex, negative in
-    a hole, zero where the edge is what it seems. For an arc of a circle both are half of the
+    a hole, zero where the edge is straight. For an arc of a circle both are half of the
    angle that it spans, and the curve is that arc. */
 struct EdgeBend
 {
@@ -35,7 +35,7 @@ struct SideChord
    EdgeBend possible;    ///< of possible_curve(), where the side is kept a polygon
 };
 
-/// The message about a side whose vertices may lie on smooth curves.
+/// A side with straight edges, whose vertices may lie on smooth curves.
 struct SidePolygon
 {
    std::vector<Eigen::Vector2d> vertices; ///< along the side, the body on the left
@@ -53,7 +53,7 @@ struct SidePolygon
 };
 
 /** The smooth curve that each edge of a side is a chord of; straight ones where the side is a
-    polygon. Told by three things, in this order.
+    polygon. Three criteria decide, in this order.
 
     1. The file: vertices within one of its curves are smooth, its ends may be corners, and the
        curvature may jump there. Where it is the same on both sides of an end, and within one of

@@ -88,10 +88,10 @@ public:
    void fix(const mfem::Array<int> &true_dofs);
 
    /// Forces on the true dofs of the space (of this rank), in axisymmetry on the whole
-   /// circumference, in torsion torques: whatever the other functions do not say. InputError if
-   /// the size is another or a force is not finite.
+   /// circumference, in torsion torques. For loads that the other functions do not cover.
+   /// InputError if the size is another or a force is not finite.
    void add_forces(const std::string &pattern, const mfem::Vector &forces);
-   /// Those of an assembled linear form on the body's own space.
+   /// Forces of an assembled linear form on the body's own space.
    void add_forces(const std::string &pattern, const mfem::LinearForm &form);
    /** An isotropic strain that the material takes without stress, such as α ΔT: the pattern
        gets the forces ∫ σ₀ : ε(v), σ₀ = D ε₀, at the points where the stiffness is integrated,
@@ -142,17 +142,17 @@ public:
    /// Motions of guides that are free or under forces.
    const std::vector<BlockMotion> &blocks() const { return blocks_; }
 
-   /// How stress_at and the output of fields find stresses, of a user's operator above all. Not
-   /// of torsion (InputError).
+   /// The law by which stress_at and the output of fields compute stresses, mainly for a user's
+   /// operator. InputError for torsion.
    void set_stress(StressLaw law);
 
    /// Plane, axisymmetric or torsion.
    Formulation formulation() const { return formulation_; }
-   /// Unknowns a node: 2, of torsion 1.
+   /// Unknowns of each node: 2, in torsion 1.
    int components() const { return cattaneo::components(formulation_); }
    /// The space of its displacements, the user's own or made of the order.
    mfem::FiniteElementSpace &space() const { return *space_; }
-   /// Those that share its mesh.
+   /// The ranks that share its mesh.
    const Ranks &ranks() const { return ranks_; }
    /// True dofs of all ranks.
    int dofs() const;
@@ -167,19 +167,19 @@ public:
    /// Material of an element attribute; InputError for a user's operator and for one that
    /// varies.
    const Material &material(int attribute) const;
-   /// At the point that is set in an element's transformation.
+   /// Material at the point that is set in an element's transformation.
    Material material(mfem::ElementTransformation &at) const;
-   /// False of a user's operator.
+   /// False for a user's operator.
    bool has_material() const { return varying_ || !materials_.empty(); }
-   /// Set by set_stress(), or empty.
+   /// The law of set_stress(), or empty.
    const StressLaw &stress_law() const { return stress_law_; }
-   /// Can stress_at() tell stresses?
+   /// Whether stress_at() can compute stresses.
    bool has_stress() const { return has_material() || stress_law_; }
    /// The sum over all patterns that have one, at the point that is set. InputError if one of
    /// these is not among the loads.
    Strain initial_strain(mfem::ElementTransformation &at, const NamedLoads &loads) const;
 
-   /// True dof of component c of the scalar node (local dof) of the space, -1 if it hangs on
+   /// True dof of component c of the scalar node (local dof) of the space, -1 if it depends on
    /// others (nonconforming meshes) or belongs to another rank.
    int true_dof(int scalar_dof, int component) const;
    /// The same as a number that all ranks share.
@@ -188,7 +188,7 @@ public:
    int first_global_dof() const { return first_global_dof_; }
    /// Coordinates of every scalar node, size 2 × nodes.
    const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
-   /// Around all nodes, of all ranks.
+   /// The box around all nodes, of all ranks.
    Eigen::AlignedBox2d box() const;
    /// True if a scalar node lies on the axis of revolution; always false in the plane.
    bool on_axis(int scalar_dof) const;

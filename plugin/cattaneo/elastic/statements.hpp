@@ -16,9 +16,10 @@ namespace cattaneo
 /// Properties of the body that a statement may use.
 struct BodyTerms
 {
-   /// Attributes by the names of their groups; none: of a name that is no part of the boundary.
+   /// Attributes by the names of their groups. A group that is no part of the boundary has
+   /// none.
    std::map<std::string, std::vector<int>> boundary;
-   bool numbered = true; ///< attributes may be said by their numbers
+   bool numbered = true; ///< attributes may be named by their numbers
    /// Coefficient of thermal expansion, of all of the body; not known: no temperatures.
    double expansion = std::numeric_limits<double>::quiet_NaN();
 };
@@ -54,7 +55,7 @@ std::vector<int> supported_attributes(const std::string &called, const std::stri
 void add_loads(ElasticBody &body, const std::string &called, const std::string &text,
                const BodyTerms &terms = {});
 
-/// True if supports or loads say something of what happens around an axis.
+/// True if supports or loads act around an axis.
 bool twists(const std::string &supports, const std::string &loads);
 
 } // namespace cattaneo

@@ -38,7 +38,7 @@ struct SolvedEdge
    std::vector<std::string> notes; ///< sentences: what was left out, and what not to trust
 };
 
-/// Remarks on all edges.
+/// The edges of a contact, or the reason why there are none.
 struct EdgeReport
 {
    std::vector<SolvedEdge> edges; ///< in the order of the nodes
@@ -46,7 +46,8 @@ struct EdgeReport
 };
 
 /** All edges of the contact, with intensities (contact_edges()), slip zones, energies and the
-    fits of corners. Never throws for what the solution is like: that is the report's to say. */
+    fits of corners. Never throws because of the solution. The report tells its faults instead.
+ */
 EdgeReport read_edges(const MarchedStates &states);
 
 } // namespace cattaneo::fretting

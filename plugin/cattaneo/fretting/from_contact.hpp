@@ -7,7 +7,8 @@
 namespace cattaneo::fretting
 {
 
-/// The input of the near-edge fields and criteria. InputError with why_not if it is not empty.
+/// An edge as the near-edge fields and criteria take it. InputError with why_not if it is not
+/// empty.
 Edge near_edge(const ContactEdge &edge);
 
 /// Frictional energy of one marched cycle, computed and as the near-edge field predicts it.

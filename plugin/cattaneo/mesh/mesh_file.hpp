@@ -28,10 +28,10 @@ struct MeshPart
     2.2, ASCII or binary, or an .inp of CalculiX or ABAQUS, of triangles and quadrilaterals.
 
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
-    file is therefore checked first, section by section. InputError saying what is wrong.
+    file is therefore checked first, section by section. InputError names the fault.
 
-    @param curves where it is to be said on which curve of the file (Gmsh's entity) each
-   boundary element is, -1: not known; for curve_sides()
+    @param curves if not null, gets the curve of the file (Gmsh's entity) of each boundary
+    element, -1 if it is not known; for curve_sides()
     @param part InputError if it names a body and the file is no deck, or a line to split and
    the file is not Gmsh's */
 mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr,
@@ -60,7 +60,7 @@ struct MeshNames
    std::vector<DeckMaterial> materials;  ///< of a deck's sections: attributes 1, 2, …
    std::set<std::string> plane_elements; ///< CPS, CPE: of a deck's sections
 };
-/// Reads a mesh file that read_mesh() takes, and the same part of it.
+/// Names and other data of a mesh file that read_mesh() takes, for the same part of it.
 MeshNames mesh_names(const std::string &file, const MeshPart &part = {});
 
 /// A sentence if vertices lie on one another, to a thousandth of their shortest edge, where the

@@ -129,7 +129,7 @@ std::vector<std::vector<OuterEdge *>> rims(std::vector<OuterEdge> &edges)
    return all;
 }
 
-/// The elements to which the vertices of a rim belong.
+/// Finds the smooth curves through the vertices of a rim.
 void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
 {
    const bool loop = rim.front()->from == rim.back()->to;

@@ -19,7 +19,7 @@ namespace cattaneo
     (ReducedProblem::knows_loads).
 
     add() is made to be a MarchObserver. Numbers are written so that they are read back to the
-    last bit. Nothing is held. */
+    last bit. Nothing is kept in memory. */
 class HistoryWriter
 {
 public:

@@ -29,7 +29,7 @@ const char *unknown(Formulation formulation)
    return formulation == Formulation::torsion ? "twist" : "displacement";
 }
 
-/// The effect of the contact on the last body, in the frames of its line.
+/// The contact forces on the last body, in the frames of its line.
 Eigen::VectorXd forces_below(const Reduction &reduction, const ContactState &state)
 {
    const ContactLine &below = reduction.bodies.back().line;

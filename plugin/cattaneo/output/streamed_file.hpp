@@ -8,7 +8,7 @@
 namespace cattaneo
 {
 
-/// A table cannot be gone on with: the disk is full, or has gone. Written text stays.
+/// A table cannot be continued, because the disk is full or gone. Rows that were written stay.
 class WriteError : public InputError
 {
 public:

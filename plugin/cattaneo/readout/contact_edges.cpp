@@ -111,7 +111,8 @@ double middle_of(const ReducedProblem &problem, const Zone &stretch)
    return 0.5 * (stretch.from.position + stretch.to.position);
 }
 
-/// The message about an edge at an end of the line.
+/// Marks an edge at an end of the line as complete or cut off, with the reason why it has no
+/// intensities.
 void refuse_at_end(const ReducedProblem &problem, ContactEdge &edge)
 {
    const std::size_t end = edge.side > 0 ? 0 : 1;
@@ -347,7 +348,7 @@ void read_k_n(const ReducedProblem &problem, const ContactState &loaded, Cracked
    };
    FittedIntensity &k_n = edge.k_n;
    k_n = fitted(0);
-   // The change by the error of the edge's position.
+   // Adds the change of K_N by the error of the edge's position.
    double change = 0;
    for (const double shift : {-edge.position.error, edge.position.error})
    {
