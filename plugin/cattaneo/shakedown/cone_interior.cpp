@@ -16,7 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Of the cone t >= |q| of {t; q}: t² - |q|², without cancellation.
+/// t² - |q|² for the cone t >= |q| of {t; q}, without cancellation. Positive inside of the
+/// cone.
 double depth(const Vector3d &x)
 {
    const double q = x.tail(2).norm();
@@ -122,7 +123,7 @@ private:
    VectorXd dual_, unbalanced_;
    std::vector<Vector3d> off_;
    VectorXd low_off_, high_off_;
-   // Of one iteration.
+   // Data of one iteration.
    std::vector<Scaling> scaling_;
    DenseCholesky factor_, border_;
    MatrixXd held_; // H⁻¹ balanceᵀ
