@@ -1,205 +1,98 @@
-#include <cattaneo/algebra/ipopt.hpp>
+#include <cattaneo/algebra/nonlinear_programme.hpp>
 #include <cattaneo/algebra/smooth_programme.hpp>
 
 namespace cattaneo
 {
 
-#ifdef CATTANEO_USE_IPOPT
-
 namespace
 {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-/// The programme for Ipopt, with a dense Jacobian.
-class SmoothNlp : public Ipopt::TNLP
+
+/// With a dense Jacobian.
+class DenseProgramme : public NonlinearProgramme
 {
-   using Index = Ipopt::Index;
-   using Number = Ipopt::Number;
-
 public:
-   SmoothNlp(const SmoothProgramme &programme, const VectorXd &start)
-      : programme(programme), start(start)
+   DenseProgramme(const SmoothProgramme &programme, const VectorXd &start)
+      : programme_(programme), start_(start)
    {
    }
-
-   SmoothSolution solution;
-
-   bool get_nlp_info(Index &variables, Index &constraints, Index &jacobian, Index &hessian,
-                     IndexStyleEnum &style) override
+   Sizes sizes() const override
    {
-      variables = static_cast<Index>(programme.low.size());
-      constraints = static_cast<Index>(programme.least.size());
-      jacobian = variables * constraints;
-      hessian = 0;
-      style = TNLP::C_STYLE;
-      return true;
+      const Index variables = programme_.low.size(), conditions = programme_.least.size();
+      return {variables, conditions, variables * conditions, 0};
    }
-
-   bool get_bounds_info(Index, Number *x_low, Number *x_high, Index, Number *g_low,
-                        Number *g_high) override
+   Bounds bounds() const override
    {
-      const auto copy = [](const VectorXd &from, Number *to)
-      { std::copy(from.data(), from.data() + from.size(), to); };
-      copy(programme.low, x_low);
-      copy(programme.high, x_high);
-      copy(programme.least, g_low);
-      copy(programme.most, g_high);
-      return true;
+      return {programme_.low, programme_.high, programme_.least, programme_.most};
    }
-
-   bool get_starting_point(Index variables, bool, Number *x, bool, Number *, Number *, Index,
-                           bool, Number *) override
-   {
-      std::copy(start.data(), start.data() + variables, x);
-      return true;
-   }
-
-   bool eval_f(Index, const Number *x, bool, Number &value) override
+   VectorXd start() const override { return start_; }
+   bool value(const double *x, double &f) const override
    {
       VectorXd c;
-      return programme.values(at(x), value, c);
+      return programme_.values(at(x), f, c);
    }
-
-   bool eval_g(Index, const Number *x, bool, Index constraints, Number *g) override
+   bool conditions(const double *x, double *c) const override
    {
-      double value = 0;
-      VectorXd c;
-      const bool known = programme.values(at(x), value, c);
-      if (known) { std::copy(c.data(), c.data() + constraints, g); }
+      double f = 0;
+      VectorXd found;
+      const bool known = programme_.values(at(x), f, found);
+      if (known) { std::copy(found.data(), found.data() + found.size(), c); }
       return known;
    }
-
-   bool eval_grad_f(Index variables, const Number *x, bool, Number *gradient) override
+   bool gradient(const double *x, double *f) const override
    {
-      VectorXd f;
+      VectorXd found;
       MatrixXd c;
-      const bool known = programme.derivatives(at(x), f, c);
-      if (known) { std::copy(f.data(), f.data() + variables, gradient); }
+      const bool known = programme_.derivatives(at(x), found, c);
+      if (known) { std::copy(found.data(), found.data() + found.size(), f); }
       return known;
    }
-
-   bool eval_jac_g(Index variables, const Number *x, bool, Index constraints, Index, Index *row,
-                   Index *column, Number *values) override
+   bool jacobian(const double *x, int *row, int *column, double *values) const override
    {
-      for (Index k = 0; !values && k < variables * constraints; ++k)
+      const auto conditions = static_cast<int>(programme_.least.size()),
+                 entries = conditions * static_cast<int>(programme_.low.size());
+      for (int k = 0; !values && k < entries; ++k)
       {
-         row[k] = k % constraints;
-         column[k] = k / constraints;
+         row[k] = k % conditions;
+         column[k] = k / conditions;
       }
       if (!values) { return true; }
       VectorXd f;
       MatrixXd c;
-      const bool known = programme.derivatives(at(x), f, c);
+      const bool known = programme_.derivatives(at(x), f, c);
       if (known) { std::copy(c.data(), c.data() + c.size(), values); }
       return known;
    }
-
-   /// Asked only of what is linear: it has no entries.
-   bool eval_h(Index, const Number *, bool, Number, Index, const Number *, bool, Index, Index *,
-               Index *, Number *) override
+   bool goes_on(int iteration) const override
    {
-      return true;
-   }
-
-   bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number,
-                              Number, Number, Number, Number, Number, Index,
-                              const Ipopt::IpoptData *,
-                              Ipopt::IpoptCalculatedQuantities *) override
-   {
-      return !programme.goes_on || programme.goes_on(iteration);
-   }
-
-   void finalize_solution(Ipopt::SolverReturn, Index variables, const Number *x,
-                          const Number *z_low, const Number *z_high, Index constraints,
-                          const Number *, const Number *lambda, Number,
-                          const Ipopt::IpoptData *, Ipopt::IpoptCalculatedQuantities *) override
-   {
-      using Map = Eigen::Map<const VectorXd>;
-      solution.y = Map(x, variables);
-      solution.z = Map(z_high, variables) - Map(z_low, variables);
-      solution.lambda = Map(lambda, constraints);
+      return !programme_.goes_on || programme_.goes_on(iteration);
    }
 
 private:
-   VectorXd at(const Number *x) const
+   VectorXd at(const double *x) const
    {
-      return Eigen::Map<const VectorXd>(x, programme.low.size());
+      return Eigen::Map<const VectorXd>(x, programme_.low.size());
    }
 
-   const SmoothProgramme &programme;
-   const VectorXd &start;
+   const SmoothProgramme &programme_;
+   const VectorXd &start_;
 };
-
-/// What it means that a programme was not solved.
-std::string in_words(Ipopt::ApplicationReturnStatus status, int max_iterations)
-{
-   using namespace Ipopt;
-   switch (status)
-   {
-   case Solved_To_Acceptable_Level:
-      return "the tolerance was nearly reached, and no more";
-   case Infeasible_Problem_Detected:
-      return "no values of the variables were found that hold all limits: they may contradict "
-             "each other or the bounds";
-   case Search_Direction_Becomes_Too_Small:
-   case Restoration_Failed:
-   case Error_In_Step_Computation:
-      return "no step from there is better, though the conditions of optimality do not hold: "
-             "derivatives may jump there";
-   case Diverging_Iterates:
-      return "the variables grow without end";
-   case Maximum_Iterations_Exceeded:
-      return "not done after " + std::to_string(max_iterations) + " iterations, which is all";
-   case Not_Enough_Degrees_Of_Freedom:
-      return "more limits hold as equations than there are variables";
-   case Invalid_Number_Detected:
-      return "a value or a derivative is not known or not finite";
-   case Insufficient_Memory:
-      return "there is not enough memory";
-   default:
-      return "Ipopt ended with its return status " + std::to_string(status);
-   }
-}
 
 } // namespace
 
 SmoothSolution solve(const SmoothProgramme &programme, const VectorXd &start, double tolerance,
                      int max_iterations)
 {
-   using namespace Ipopt;
-   SmartPtr<SmoothNlp> nlp = new SmoothNlp(programme, start);
-   const SmartPtr<IpoptApplication> app = ipopt(tolerance, max_iterations);
-   if (!programme.linear)
-   {
-      app->Options()->SetStringValue("hessian_approximation", "limited-memory");
-   }
-   const ApplicationReturnStatus status = optimize(*app, nlp);
-   SmoothSolution solution = nlp->solution;
-   const SmartPtr<SolveStatistics> statistics = app->Statistics();
-   if (IsValid(statistics)) { solution.iterations = statistics->IterationCount(); }
-   solution.outcome = status == Solve_Succeeded       ? SmoothOutcome::solved
-                      : status == User_Requested_Stop ? SmoothOutcome::stopped
-                                                      : SmoothOutcome::failed;
-   if (solution.outcome == SmoothOutcome::failed)
-   {
-      solution.message = in_words(status, max_iterations);
-   }
-   return solution;
+   ProgrammeSettings settings;
+   settings.tolerance = tolerance;
+   settings.max_iterations = max_iterations;
+   settings.second_derivatives = programme.linear; // there are none
+   const ProgrammeSolution found = solve(DenseProgramme(programme, start), settings);
+   return {found.outcome, found.message,   found.x, found.z_high - found.z_low,
+           found.lambda,  found.iterations};
 }
-
-#else
-
-SmoothSolution solve(const SmoothProgramme &, const Eigen::VectorXd &, double, int)
-{
-   return {SmoothOutcome::unavailable,
-           "built without Ipopt (CATTANEO_USE_IPOPT=OFF)",
-           {},
-           {},
-           {},
-           0};
-}
-
-#endif
 
 } // namespace cattaneo

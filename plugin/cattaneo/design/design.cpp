@@ -434,13 +434,13 @@ SmoothSolution Design::descend()
       differentiate(now);
       if (!now.known)
       {
-         last.outcome = SmoothOutcome::failed;
+         last.outcome = ProgrammeOutcome::failed;
          last.message = now.message;
          return last;
       }
       last = solve(programme(&now, radius), y_of(now), 1e-3 * settings_.tolerance, 300);
       last.iterations = k + 1;
-      if (last.outcome != SmoothOutcome::solved) { return last; }
+      if (last.outcome != ProgrammeOutcome::solved) { return last; }
       const VectorXd next = x_of(last.y);
       const double promised = objective(now) - unit_ * last.y[variables_];
       if (promised <= settings_.tolerance * unit_)
@@ -456,7 +456,7 @@ SmoothSolution Design::descend()
       else if (kept > 0.75 && far) { radius *= 3; }
       if (kept > 0.01) { now = trial; }
    }
-   last.outcome = SmoothOutcome::failed;
+   last.outcome = ProgrammeOutcome::failed;
    last.message = radius > 1e-12 ? "not done after all iterations"
                                  : "nodes change their states there, and derivatives jump";
    return last;
@@ -520,7 +520,7 @@ void Design::check_optimality(const SmoothSolution &solution)
 
 void Design::take(const SmoothSolution &solution)
 {
-   const bool solved = solution.outcome == SmoothOutcome::solved && !stopped();
+   const bool solved = solution.outcome == ProgrammeOutcome::solved && !stopped();
    const VectorXd last = solved ? x_of(solution.y) : best_->x;
    const Trial &trial = at(last);
    // What violates a limit by less than the tolerance may be better than all that does not.
@@ -553,7 +553,7 @@ void Design::take(const SmoothSolution &solution)
    {
       report_.status = DesignStatus::improved;
       report_.message =
-         solution.outcome == SmoothOutcome::stopped
+         solution.outcome == ProgrammeOutcome::stopped
             ? "no iteration of the last " + std::to_string(patience) +
                  " found a better one: nodes may change their states there, where derivatives "
                  "jump"
@@ -589,7 +589,7 @@ DesignReport Design::run(const VectorXd &start)
       largest() && !given_.objective && !given_.shape
          ? descend()
          : solve(programme(), y_of(first), settings_.tolerance, settings_.max_iterations);
-   if (solution.outcome == SmoothOutcome::unavailable)
+   if (solution.outcome == ProgrammeOutcome::unavailable)
    {
       report_.status = DesignStatus::unavailable;
       report_.message = solution.message;

@@ -6,6 +6,7 @@
 #include <cattaneo/progress_report.hpp>
 #include <cattaneo/wear/worn_derivative.hpp>
 #include <cmath>
+#include <functional>
 
 namespace cattaneo
 {
@@ -81,6 +82,23 @@ double TraceChange::of(const Response &response) const
    return sum;
 }
 
+namespace
+{
+
+/// Changes of parameters and of states, or derivatives of one number by them: a column for each
+/// state.
+struct Variables
+{
+   Parameters by;
+   MatrixXd displacements, forces, multipliers;
+};
+
+/// Is asked with each variable that a number depends on, and the derivative by it. Changes are
+/// summed going forward, derivatives are added to going back.
+using Visitor = std::function<void(double &variable, double derivative)>;
+
+} // namespace
+
 struct Sensitivity::System
 {
    System(const ReducedProblem &problem, const MarchTrace &trace,
@@ -110,16 +128,29 @@ struct Sensitivity::System
       double gap = 0, friction = 0;
    };
    Boundary boundary(std::size_t k) const;
+
+   // The derivative of increment k, which both ways use.
+   /// Forces with the contact nodes clamped by each change of stiffness, one column each.
+   MatrixXd clamped_by_stiffness(std::size_t k) const;
+   /// Conjugates of the loads likewise, at given displacements.
+   MatrixXd conjugates_by_stiffness(std::size_t k) const;
+   /// What is added to the equation of each node's tangential row by its friction.
+   VectorXd equations_by_friction(std::size_t k) const;
+   /// Of one node's number with these derivatives by its rubbing.
+   void visit_rubbing(std::size_t k, Index node, const RubbingDerivative &by, Variables &of,
+                      const Visitor &visit) const;
+   /// Of the loss, and of the worn depth, of each node that slips over the increment and has a
+   /// weight.
+   void visit_loss(std::size_t k, const VectorXd &weights, Variables &of,
+                   const std::function<Visitor(Index node)> &visitor) const;
+   void visit_worn(std::size_t k, const VectorXd &weights, Variables &of,
+                   const std::function<Visitor(Index node)> &visitor) const;
+
    // Forward.
    /// Displacements and forces of state k for forces db with the contact nodes clamped, forces
    /// `beside` added to the equations, and given displacements of the rows without one.
    void respond(std::size_t k, const VectorXd &db, const VectorXd &beside, VectorXd &du,
                 VectorXd &dF);
-   /// Of numbers of a node over increment k, by its rubbing.
-   double rub_change(std::size_t k, Index node, const RubbingDerivative &by,
-                     const Parameters &change, const TraceChange &so_far) const;
-   /// Losses and depths that increment k takes.
-   void note_rubbing(std::size_t k, const Parameters &change, TraceChange &so_far) const;
 
    // Backward.
    /// Derivatives by what state k depends on.
@@ -145,14 +176,6 @@ struct Sensitivity::System
       return along.size() > 0 &&
              along.cwiseAbs().maxCoeff() > 1e-9 * forces.cwiseAbs().maxCoeff();
    }
-   /// Adds what a number of a node over increment k makes of its weight, by its rubbing.
-   void spread_rub(std::size_t k, Index node, const RubbingDerivative &by, double weight,
-                   Gradient &gradient, MatrixXd &by_u, MatrixXd &by_F) const;
-   /// The same of losses and of worn depths of all nodes.
-   void spread_loss(std::size_t k, const VectorXd &weights, Gradient &gradient, MatrixXd &by_u,
-                    MatrixXd &by_F) const;
-   void spread_worn(std::size_t k, const VectorXd &weights, Gradient &gradient, MatrixXd &by_u,
-                    MatrixXd &by_F) const;
    bool wears() const { return trace.wear.coefficient.size() > 0; }
    /// Has the gap taken in what was worn since increment k began, before increment k + 1?
    bool updates_gap_after(std::size_t k) const
@@ -320,85 +343,88 @@ double Sensitivity::System::approach(std::size_t k, const Adjoint &of) const
    return std::abs(rate) > 1e-12 * most ? rate : 0.0;
 }
 
-double Sensitivity::System::rub_change(std::size_t k, Index i, const RubbingDerivative &by,
-                                       const Parameters &change,
-                                       const TraceChange &so_far) const
+MatrixXd Sensitivity::System::clamped_by_stiffness(std::size_t k) const
 {
-   const auto now = static_cast<Index>(k), before = now - 1;
-   double sum = by.q0[0] * so_far.forces(i, before) + by.q1[0] * so_far.forces(i, now) +
-                by.p0 * so_far.forces(m + i, before) + by.p1 * so_far.forces(m + i, now) +
-                by.slip[0] * (so_far.displacements(i, now) - so_far.displacements(i, before));
-   if (change.friction.size()) { sum += by.friction * change.friction[i]; }
-   for (Index s = 0; s < change.stiffness.size(); ++s)
+   const VectorXd u = state(k).displacements();
+   MatrixXd by(K.rows(), stiffness.size());
+   for (std::size_t j = 0; j < stiffness.size(); ++j)
    {
-      sum += by.stiffness[0] * stiffness[s].K(i, i) * change.stiffness[s];
+      const StiffnessChange &change = stiffness[j];
+      auto column = by.col(static_cast<Index>(j));
+      column = change.K * u;
+      if (change.loads.cols() > 0) { column += change.loads * state(k).multipliers; }
    }
-   return sum;
+   return by;
 }
 
-void Sensitivity::System::note_rubbing(std::size_t k, const Parameters &change,
-                                       TraceChange &so_far) const
+MatrixXd Sensitivity::System::conjugates_by_stiffness(std::size_t k) const
 {
-   if (m == 0) { return; }
-   const Rubbing rub = rubbing(problem, state(k - 1), state(k));
-   const auto column = static_cast<Index>(k);
-   for (Index i = 0; i < n; ++i)
+   MatrixXd by = MatrixXd::Zero(F.cols(), static_cast<Index>(stiffness.size()));
+   for (std::size_t j = 0; j < stiffness.size(); ++j)
    {
-      if (rub.way[i] == 0) { continue; }
-      so_far.loss(i, column) = rub_change(
-         k, i, loss_derivative(problem, state(k - 1), state(k), rub, i), change, so_far);
-      if (!wears() || !(problem.weights[i] > 0)) { continue; }
-      const WornDerivative worn =
-         worn_derivative(problem, trace.wear, state(k - 1), state(k), rub, i);
-      so_far.worn(i, column) = rub_change(k, i, worn.by, change, so_far);
-      if (change.wear.size()) { so_far.worn(i, column) += worn.coefficient * change.wear[i]; }
+      const StiffnessChange &change = stiffness[j];
+      auto column = by.col(static_cast<Index>(j));
+      if (change.H.rows() > 0) { column += change.H * state(k).multipliers; }
+      if (change.loads.cols() == 0) { continue; }
+      column += acts.cwiseProduct(change.loads.transpose() * state(k).displacements());
    }
+   return by;
 }
 
-void Sensitivity::System::spread_rub(std::size_t k, Index i, const RubbingDerivative &by,
-                                     double weight, Gradient &gradient, MatrixXd &by_u,
-                                     MatrixXd &by_F) const
+VectorXd Sensitivity::System::equations_by_friction(std::size_t k) const
+{
+   const ContactState &now = state(k);
+   VectorXd by = VectorXd::Zero(n);
+   for (Index i = 0; m > 0 && i < n; ++i)
+   {
+      if (!sticks(k, i)) { by[i] = sense(now.status[i]) * now.p[i]; }
+   }
+   return by;
+}
+
+void Sensitivity::System::visit_rubbing(std::size_t k, Index i, const RubbingDerivative &by,
+                                        Variables &of, const Visitor &visit) const
 {
    const auto now = static_cast<Index>(k), before = now - 1;
-   by_F(i, before) += weight * by.q0[0];
-   by_F(i, now) += weight * by.q1[0];
-   by_F(m + i, before) += weight * by.p0;
-   by_F(m + i, now) += weight * by.p1;
-   by_u(i, now) += weight * by.slip[0];
-   by_u(i, before) -= weight * by.slip[0];
-   gradient.by.friction[i] += weight * by.friction;
+   visit(of.forces(i, before), by.q0[0]);
+   visit(of.forces(i, now), by.q1[0]);
+   visit(of.forces(m + i, before), by.p0);
+   visit(of.forces(m + i, now), by.p1);
+   visit(of.displacements(i, now), by.slip[0]);
+   visit(of.displacements(i, before), -by.slip[0]);
+   visit(of.by.friction[i], by.friction);
    for (std::size_t s = 0; s < stiffness.size(); ++s)
    {
-      gradient.by.stiffness[static_cast<Index>(s)] +=
-         weight * by.stiffness[0] * stiffness[s].K(i, i);
+      visit(of.by.stiffness[static_cast<Index>(s)], by.stiffness[0] * stiffness[s].K(i, i));
    }
 }
 
-void Sensitivity::System::spread_loss(std::size_t k, const VectorXd &weights,
-                                      Gradient &gradient, MatrixXd &by_u, MatrixXd &by_F) const
+void Sensitivity::System::visit_loss(std::size_t k, const VectorXd &weights, Variables &of,
+                                     const std::function<Visitor(Index)> &visitor) const
 {
-   if (weights.isZero(0)) { return; }
+   if (m == 0 || weights.isZero(0)) { return; }
    const Rubbing rub = rubbing(problem, state(k - 1), state(k));
-   for (Index i = 0; i < weights.size(); ++i)
+   for (Index i = 0; i < n; ++i)
    {
       if (weights[i] == 0 || rub.way[i] == 0) { continue; }
-      spread_rub(k, i, loss_derivative(problem, state(k - 1), state(k), rub, i), weights[i],
-                 gradient, by_u, by_F);
+      visit_rubbing(k, i, loss_derivative(problem, state(k - 1), state(k), rub, i), of,
+                    visitor(i));
    }
 }
 
-void Sensitivity::System::spread_worn(std::size_t k, const VectorXd &weights,
-                                      Gradient &gradient, MatrixXd &by_u, MatrixXd &by_F) const
+void Sensitivity::System::visit_worn(std::size_t k, const VectorXd &weights, Variables &of,
+                                     const std::function<Visitor(Index)> &visitor) const
 {
-   if (weights.isZero(0)) { return; }
+   if (m == 0 || !wears() || weights.isZero(0)) { return; }
    const Rubbing rub = rubbing(problem, state(k - 1), state(k));
-   for (Index i = 0; i < weights.size(); ++i)
+   for (Index i = 0; i < n; ++i)
    {
       if (weights[i] == 0 || rub.way[i] == 0 || !(problem.weights[i] > 0)) { continue; }
       const WornDerivative worn =
          worn_derivative(problem, trace.wear, state(k - 1), state(k), rub, i);
-      spread_rub(k, i, worn.by, weights[i], gradient, by_u, by_F);
-      gradient.by.wear[i] += weights[i] * worn.coefficient;
+      const Visitor visit = visitor(i);
+      visit_rubbing(k, i, worn.by, of, visit);
+      visit(of.by.wear[i], worn.coefficient);
    }
 }
 
@@ -462,7 +488,16 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
    result.multipliers = result.conjugates = MatrixXd::Zero(count, states);
    result.loss = MatrixXd::Zero(n, states);
    result.worn = MatrixXd::Zero(n, s.wears() ? states : 0);
-   VectorXd gap = change.gap.size() > 0 ? change.gap : VectorXd(VectorXd::Zero(n));
+   const auto or_zero = [](const MatrixXd &x, Index rows, Index columns)
+   { return x.size() > 0 ? x : MatrixXd(MatrixXd::Zero(rows, columns)); };
+   Variables x{{or_zero(change.friction, n, 1), or_zero(change.gap, n, 1),
+                or_zero(change.multipliers, count, points),
+                or_zero(change.stiffness, static_cast<Index>(s.stiffness.size()), 1),
+                or_zero(change.wear, s.wears() ? n : 0, 1)},
+               result.displacements,
+               result.forces,
+               result.multipliers};
+   VectorXd gap = x.by.gap;
    Index in_gap = 0; // the last state up to which wear is part of it
    double share_change = 0;
    ProgressReport progress(monitor);
@@ -470,7 +505,6 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
    {
       if (stopped(monitor, progress, k - 1, states - 1, result.message)) { return result; }
       const TracedState &traced = s.trace.states[k];
-      const ContactState &now = traced.state;
       if (!s.set(k))
       {
          result.message = s.message;
@@ -481,40 +515,17 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
          gap += result.worn.middleCols(in_gap + 1, k - 1 - in_gap).rowwise().sum();
          in_gap = k - 1;
       }
-      VectorXd loads = VectorXd::Zero(count);
-      if (change.multipliers.size() > 0)
-      {
-         loads = (1 - traced.share) * change.multipliers.col(traced.point) +
-                 traced.share * change.multipliers.col(traced.point + 1);
-      }
-      const VectorXd u = now.displacements();
-      VectorXd clamped = s.F * loads, own = VectorXd::Zero(count);
-      for (Index j = 0; j < change.stiffness.size(); ++j)
-      {
-         const StiffnessChange &stiffness = s.stiffness[j];
-         clamped += change.stiffness[j] * (stiffness.K * u);
-         if (stiffness.H.rows() > 0)
-         {
-            own += change.stiffness[j] * (stiffness.H * now.multipliers);
-         }
-         if (stiffness.loads.cols() == 0) { continue; }
-         clamped += change.stiffness[j] * (stiffness.loads * now.multipliers);
-         own += change.stiffness[j] * s.acts.cwiseProduct(stiffness.loads.transpose() * u);
-      }
+      VectorXd loads = (1 - traced.share) * x.by.multipliers.col(traced.point) +
+                       traced.share * x.by.multipliers.col(traced.point + 1);
+      const VectorXd clamped = s.F * loads + s.clamped_by_stiffness(k) * x.by.stiffness;
       VectorXd beside = VectorXd::Zero(m + n);
-      for (Index i = 0; change.friction.size() > 0 && m > 0 && i < n; ++i)
-      {
-         if (!s.sticks(k, i))
-         {
-            beside[i] = sense(now.status[i]) * now.p[i] * change.friction[i];
-         }
-      }
+      if (m > 0) { beside.head(n) = s.equations_by_friction(k).cwiseProduct(x.by.friction); }
       if (s.frictionless && s.pushes(clamped + beside))
       {
          result.message = "a body that is free to slide without friction is pushed";
          return result;
       }
-      VectorXd du = result.displacements.col(k - 1), dF;
+      VectorXd du = x.displacements.col(k - 1), dF;
       du.tail(n) = -gap;
       s.respond(k, clamped, beside, du, dF);
       if (traced.event < 0) { share_change = 0; }
@@ -522,8 +533,9 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
       {
          const System::Boundary at = s.boundary(k);
          const double rate = s.approach(k, s.go_back(k, at.displacements, at.forces));
-         double off = at.displacements.dot(du) + at.forces.dot(dF) + at.gap * gap[traced.event];
-         if (change.friction.size() > 0) { off += at.friction * change.friction[traced.event]; }
+         const double off = at.displacements.dot(du) + at.forces.dot(dF) +
+                            at.gap * gap[traced.event] +
+                            at.friction * x.by.friction[traced.event];
          if (rate != 0) { share_change = -off / rate; }
          else if (!s.goes_with_the_last(k)) { share_change = 0; }
          VectorXd du_rate = VectorXd::Zero(m + n), dF_rate;
@@ -532,13 +544,26 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
          dF += share_change * dF_rate;
          loads += share_change * s.piece(k);
       }
-      result.displacements.col(k) = du;
-      result.forces.col(k) = dF;
-      result.multipliers.col(k) = loads;
-      result.conjugates.col(k) = own + s.acts.cwiseProduct(s.F.transpose() * du);
+      x.displacements.col(k) = du;
+      x.forces.col(k) = dF;
+      x.multipliers.col(k) = loads;
+      result.conjugates.col(k) = s.conjugates_by_stiffness(k) * x.by.stiffness +
+                                 s.acts.cwiseProduct(s.F.transpose() * du);
       if (s.problem.knows_loads()) { result.conjugates.col(k) += s.problem.H * loads; }
-      s.note_rubbing(k, change, result);
+      const auto sum_of = [k](MatrixXd &sums)
+      {
+         return [&sums, k](Index i) -> Visitor
+         {
+            double &sum = sums(i, k);
+            return [&sum](double &variable, double by) { sum += by * variable; };
+         };
+      };
+      s.visit_loss(k, VectorXd::Ones(n), x, sum_of(result.loss));
+      s.visit_worn(k, VectorXd::Ones(n), x, sum_of(result.worn));
    }
+   result.displacements = std::move(x.displacements);
+   result.forces = std::move(x.forces);
+   result.multipliers = std::move(x.multipliers);
    result.trace = s.trace.number;
    result.found = true;
    return result;
@@ -550,13 +575,23 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
    const Index n = s.n, m = s.m, count = s.F.cols(),
                states = static_cast<Index>(s.trace.states.size());
    Gradient result;
-   Parameters &by = result.by;
-   by.friction = by.gap = VectorXd::Zero(n);
-   by.wear = VectorXd::Zero(s.wears() ? n : 0);
-   by.multipliers = MatrixXd::Zero(count, s.trace.history.times.size());
-   by.stiffness = VectorXd::Zero(static_cast<Index>(s.stiffness.size()));
-   MatrixXd by_u = MatrixXd::Zero(m + n, states), by_F = by_u,
-            by_loads = MatrixXd::Zero(count, states);
+   Variables x{{VectorXd::Zero(n), VectorXd::Zero(n),
+                MatrixXd::Zero(count, s.trace.history.times.size()),
+                VectorXd::Zero(static_cast<Index>(s.stiffness.size())),
+                VectorXd::Zero(s.wears() ? n : 0)},
+               MatrixXd::Zero(m + n, states),
+               MatrixXd::Zero(m + n, states),
+               MatrixXd::Zero(count, states)};
+   Parameters &by = x.by;
+   MatrixXd &by_u = x.displacements, &by_F = x.forces, &by_loads = x.multipliers;
+   const auto weighted = [](const VectorXd &weights)
+   {
+      return [&weights](Index i) -> Visitor
+      {
+         return [weight = weights[i]](double &variable, double derivative)
+         { variable += weight * derivative; };
+      };
+   };
    require(response.trace == 0 || s.trace.number == 0 || response.trace == s.trace.number,
            "sensitivity: the response is of another march than this trace's");
    for (const auto &[k, weight] : response.weights)
@@ -575,11 +610,14 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       if (size(weight.multipliers, count)) { by_loads.col(column) += weight.multipliers; }
       if (size(weight.loss, m > 0 ? n : 0) && k > 0)
       {
-         s.spread_loss(k, weight.loss, result, by_u, by_F);
+         s.visit_loss(k, weight.loss, x, weighted(weight.loss));
       }
       require(weight.worn.size() == 0 || s.wears(),
               "sensitivity: a response of wear, of which the trace has no law");
-      if (size(weight.worn, n) && k > 0) { s.spread_worn(k, weight.worn, result, by_u, by_F); }
+      if (size(weight.worn, n) && k > 0)
+      {
+         s.visit_worn(k, weight.worn, x, weighted(weight.worn));
+      }
       if (!size(weight.conjugates, count)) { continue; }
       const VectorXd acting = s.acts.cwiseProduct(weight.conjugates);
       by_u.col(column) += s.F * acting;
@@ -587,18 +625,9 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       {
          by_loads.col(column) += s.problem.H.transpose() * weight.conjugates;
       }
-      for (Index j = 0; k > 0 && j < by.stiffness.size(); ++j)
+      if (k > 0)
       {
-         const StiffnessChange &stiffness = s.stiffness[j];
-         const ContactState &now = s.state(k);
-         if (stiffness.H.rows() > 0)
-         {
-            by.stiffness[j] += weight.conjugates.dot(stiffness.H * now.multipliers);
-         }
-         if (stiffness.loads.cols() > 0)
-         {
-            by.stiffness[j] += acting.dot(stiffness.loads.transpose() * now.displacements());
-         }
+         by.stiffness += s.conjugates_by_stiffness(k).transpose() * weight.conjugates;
       }
    }
    double by_share = 0;
@@ -613,7 +642,7 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       const TracedState &traced = s.trace.states[k];
       const ContactState &now = traced.state;
       if (s.wears() && s.updates_gap_after(k)) { by_worn = by.gap; }
-      s.spread_worn(k, by_worn, result, by_u, by_F);
+      s.visit_worn(k, by_worn, x, weighted(by_worn));
       if (by_share == 0 && by_u.col(k).isZero(0) && by_F.col(k).isZero(0) &&
           by_loads.col(k).isZero(0))
       {
@@ -660,23 +689,13 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       by.multipliers.col(traced.point + 1) += traced.share * by_load;
       by.gap -= at.imposed.tail(n);
       by_u.col(k - 1).head(m) += at.imposed.head(m);
-      for (Index i = 0; m > 0 && i < n; ++i)
+      if (m > 0)
       {
-         if (!s.sticks(k, i))
-         {
-            by.friction[i] += sense(now.status[i]) * now.p[i] * at.equations[i];
-         }
+         by.friction += s.equations_by_friction(k).cwiseProduct(at.equations.head(n));
       }
-      for (Index j = 0; j < by.stiffness.size(); ++j)
-      {
-         const StiffnessChange &stiffness = s.stiffness[j];
-         by.stiffness[j] += at.clamped.dot(stiffness.K * now.displacements());
-         if (stiffness.loads.cols() > 0)
-         {
-            by.stiffness[j] += at.clamped.dot(stiffness.loads * now.multipliers);
-         }
-      }
+      by.stiffness += s.clamped_by_stiffness(k).transpose() * at.clamped;
    }
+   result.by = std::move(by);
    result.found = true;
    return result;
 }

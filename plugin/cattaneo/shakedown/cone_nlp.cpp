@@ -1,16 +1,14 @@
-#include <cattaneo/algebra/ipopt.hpp>
+#include <cattaneo/algebra/nonlinear_programme.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
 #include <string>
 
 namespace cattaneo
 {
 
-#ifdef CATTANEO_USE_IPOPT
-
 namespace
 {
 
-/** The programme for Ipopt in unknowns of order one, forces over the typical force s of their
+/** The programme in unknowns of order one, forces over the typical force s of their
     node: x = {θ, ρ, π, t} with ρ = r / s, π = M r / s and, with two tangential components only,
     t = (f p + strength) / s of every cone.
 
@@ -18,14 +16,11 @@ namespace
     there are; an uncoupled problem has none. One component: the two rows t ± q ≥ 0 of a linear
     programme. Two: t - |q|²/t ≥ 0, which is convex and smooth for t > 0, where the bound t ≥ 0
     keeps it; |q| itself has no derivative at the tip, where limits by separation lie. */
-class ConeNlp : public Ipopt::TNLP
+class ConeNlp : public NonlinearProgramme
 {
-   using Index = Ipopt::Index;
-   using Number = Ipopt::Number;
-
 public:
-   ConeNlp(const ConeProgramme &programme, const ConeSettings &settings, const ConeStart &start)
-      : programme(programme), settings(settings), start(start), n(programme.nodes()),
+   ConeNlp(const ConeProgramme &programme, const ConeSettings &settings, const ConeStart &from)
+      : programme(programme), settings(settings), from(from), n(programme.nodes()),
         c(programme.components()), m(n * c), columns(programme.loads.vertices()),
         cones(n * columns), rigid(programme.residual->rigid.cols()),
         coupled(!programme.residual->uncoupled), disc(c == 2),
@@ -65,107 +60,94 @@ public:
       for (Eigen::Index k = 0; k < rigid; ++k) { balance.row(k).normalize(); }
    }
 
-   ConeSolution solution;
-
-   bool get_nlp_info(Index &variables, Index &constraints, Index &jacobian, Index &hessian,
-                     IndexStyleEnum &style) override
+   Sizes sizes() const override
    {
       const Eigen::Index pi = coupled ? 1 : 0;
-      variables = static_cast<Index>(first_t + (disc ? cones : 0));
-      constraints = static_cast<Index>(first_cone + (disc ? 1 : 2) * cones);
-      jacobian = static_cast<Index>(pi * n * (m + 1) + rigid * m +
-                                    cones * (disc ? (2 + pi) + 4 : 2 * (2 + pi)));
-      hessian = static_cast<Index>(disc ? 1 + 4 * n + 4 * cones : 0);
-      style = TNLP::C_STYLE;
-      return true;
+      return {first_t + (disc ? cones : 0), first_cone + (disc ? 1 : 2) * cones,
+              pi * n * (m + 1) + rigid * m + cones * (disc ? (2 + pi) + 4 : 2 * (2 + pi)),
+              disc ? 1 + 4 * n + 4 * cones : 0};
    }
 
-   bool get_bounds_info(Index variables, Number *x_low, Number *x_high, Index constraints,
-                        Number *g_low, Number *g_high) override
+   Bounds bounds() const override
    {
+      const Sizes all = sizes();
       const double none = 2e19; // what Ipopt takes for infinite
-      std::fill(x_low, x_low + variables, -none);
-      std::fill(x_high, x_high + variables, none);
+      Bounds made{Eigen::VectorXd::Constant(all.variables, -none),
+                  Eigen::VectorXd::Constant(all.variables, none),
+                  Eigen::VectorXd::Zero(all.conditions), Eigen::VectorXd::Zero(all.conditions)};
       // θ has a ceiling, so that an unlimited load does not run away.
-      x_high[0] = programme.ceiling;
+      made.high[0] = programme.ceiling;
       for (Eigen::Index k = 0; k < m; ++k)
       {
          const double s = programme.force_scale[k % n];
-         x_low[1 + k] = programme.r_low.size() ? programme.r_low[k] / s : -programme.reach;
-         x_high[1 + k] = programme.r_high.size() ? programme.r_high[k] / s : programme.reach;
+         made.low[1 + k] = programme.r_low.size() ? programme.r_low[k] / s : -programme.reach;
+         made.high[1 + k] = programme.r_high.size() ? programme.r_high[k] / s : programme.reach;
       }
-      std::fill(x_low + first_t, x_low + variables, 0.0);
+      made.low.tail(all.variables - first_t).setZero();
       // Balance and definitions are equations. The cones are inequalities with a margin.
-      std::fill(g_low, g_low + first_cone, 0.0);
-      std::fill(g_high, g_high + first_cone, 0.0);
-      std::fill(g_low + first_cone, g_low + constraints, settings.margin);
-      std::fill(g_high + first_cone, g_high + constraints, none);
-      return true;
+      made.least.tail(all.conditions - first_cone).setConstant(settings.margin);
+      made.most.tail(all.conditions - first_cone).setConstant(none);
+      return made;
    }
 
-   bool get_starting_point(Index variables, bool, Number *x, bool init_z, Number *z_low,
-                           Number *z_high, Index constraints, bool init_lambda,
-                           Number *lambda) override
+   Eigen::VectorXd start() const override
    {
-      std::fill(x, x + variables, 0.0);
-      x[0] = start.theta / programme.theta_scale;
-      if (start.r.size())
+      Eigen::VectorXd x = Eigen::VectorXd::Zero(sizes().variables);
+      x[0] = from.theta / programme.theta_scale;
+      if (from.r.size())
       {
-         Eigen::Map<Eigen::VectorXd> rho(x + 1, m);
-         rho = start.r.cwiseQuotient(programme.force_scale.replicate(c, 1));
-         if (coupled) { Eigen::Map<Eigen::VectorXd>(x + first_pi, n) = transfer * rho; }
+         x.segment(1, m) = from.r.cwiseQuotient(programme.force_scale.replicate(c, 1));
+         if (coupled) { x.segment(first_pi, n) = transfer * x.segment(1, m); }
       }
       for (Eigen::Index k = 0; disc && k < cones; ++k)
       {
          // t is kept away from the tip of its cone, where |q|²/t has no derivative.
-         x[first_t + k] = std::max(limit(x, k), 1e-2);
+         x[first_t + k] = std::max(limit(x.data(), k), 1e-2);
       }
-      if (init_z)
+      return x;
+   }
+
+   Eigen::VectorXd multipliers() const override
+   {
+      const ConeMechanism &mechanism = from.mechanism;
+      if (mechanism.slip.size() == 0) { return {}; }
+      Eigen::VectorXd lambda = Eigen::VectorXd::Zero(sizes().conditions);
+      const Eigen::MatrixXd opening = mechanism.opening(programme);
+      for (Eigen::Index k = 0; k < cones; ++k)
       {
-         std::fill(z_low, z_low + variables, 0.0);
-         std::fill(z_high, z_high + variables, 0.0);
-      }
-      if (init_lambda)
-      {
-         std::fill(lambda, lambda + constraints, 0.0);
-         const ConeMechanism &mechanism = start.mechanism;
-         const Eigen::MatrixXd opening = mechanism.opening(programme);
-         for (Eigen::Index k = 0; k < cones; ++k)
+         const Eigen::Index i = k % n, j = k / n;
+         const double unit = programme.force_scale[i] / programme.theta_scale;
+         const double y = mechanism.limit(i, j) * unit;
+         // Stationary in π, the multiplier of its definition is what the cones press.
+         if (coupled) { lambda[i] += opening(i, j) * unit; }
+         if (disc)
          {
-            const Eigen::Index i = k % n, j = k / n;
-            const double unit = programme.force_scale[i] / programme.theta_scale;
-            const double y = mechanism.limit(i, j) * unit;
-            // Stationary in π, the multiplier of its definition is what the cones press.
-            if (coupled) { lambda[i] += opening(i, j) * unit; }
-            if (disc)
-            {
-               lambda[first_definition + k] = y;
-               lambda[first_cone + k] = -0.5 * y;
-            }
-            else
-            {
-               lambda[first_cone + 2 * k] = -0.5 * (y + mechanism.slip(i, j) * unit);
-               lambda[first_cone + 2 * k + 1] = -0.5 * (y - mechanism.slip(i, j) * unit);
-            }
+            lambda[first_definition + k] = y;
+            lambda[first_cone + k] = -0.5 * y;
+         }
+         else
+         {
+            lambda[first_cone + 2 * k] = -0.5 * (y + mechanism.slip(i, j) * unit);
+            lambda[first_cone + 2 * k + 1] = -0.5 * (y - mechanism.slip(i, j) * unit);
          }
       }
-      return true;
+      return lambda;
    }
 
-   bool eval_f(Index, const Number *x, bool, Number &value) override
+   bool value(const double *x, double &f) const override
    {
-      value = -x[0];
+      f = -x[0];
       return true;
    }
 
-   bool eval_grad_f(Index variables, const Number *, bool, Number *gradient) override
+   bool gradient(const double *, double *f) const override
    {
-      std::fill(gradient, gradient + variables, 0.0);
-      gradient[0] = -1;
+      std::fill(f, f + sizes().variables, 0.0);
+      f[0] = -1;
       return true;
    }
 
-   bool eval_g(Index, const Number *x, bool, Index, Number *g) override
+   bool conditions(const double *x, double *g) const override
    {
       const Eigen::Map<const Eigen::VectorXd> rho(x + 1, m);
       if (coupled)
@@ -192,8 +174,7 @@ public:
       return true;
    }
 
-   bool eval_jac_g(Index, const Number *x, bool, Index, Index, Index *row, Index *column,
-                   Number *values) override
+   bool jacobian(const double *x, int *row, int *column, double *values) const override
    {
       // Structure and values are written by the same walk, in the same order.
       Eigen::Index entry = 0;
@@ -202,8 +183,8 @@ public:
          if (values) { values[entry] = value; }
          else
          {
-            row[entry] = static_cast<Index>(r);
-            column[entry] = static_cast<Index>(k);
+            row[entry] = static_cast<int>(r);
+            column[entry] = static_cast<int>(k);
          }
          ++entry;
       };
@@ -248,8 +229,8 @@ public:
       return true;
    }
 
-   bool eval_h(Index, const Number *x, bool, Number, Index, const Number *lambda, bool, Index,
-               Index *row, Index *column, Number *values) override
+   bool hessian(const double *x, const double *lambda, int *row, int *column,
+                double *values) const override
    {
       if (!disc) { return true; }
       if (!values)
@@ -257,8 +238,8 @@ public:
          Eigen::Index entry = 0;
          const auto put = [&](Eigen::Index r, Eigen::Index k)
          {
-            row[entry] = static_cast<Index>(r);
-            column[entry++] = static_cast<Index>(k);
+            row[entry] = static_cast<int>(r);
+            column[entry++] = static_cast<int>(k);
          };
          put(0, 0);
          for (Eigen::Index i = 0; i < n; ++i)
@@ -285,12 +266,12 @@ public:
          const double t = x[first_t + k], weight = -lambda[first_cone + k] * 2 / t;
          const Eigen::Vector2d u = shear(x, k) / t, by_theta(q1(i, j), q1(n + i, j));
          values[0] += weight * by_theta.squaredNorm();
-         Number *own = values + 1 + 4 * i;
+         double *own = values + 1 + 4 * i;
          own[0] += weight * tangential * by_theta[0];
          own[1] += weight * tangential * by_theta[1];
          own[2] += weight * tangential;
          own[3] += weight * tangential;
-         Number *with_t = values + 1 + 4 * n + 4 * k;
+         double *with_t = values + 1 + 4 * n + 4 * k;
          with_t[0] = -weight * u.dot(by_theta);
          with_t[1] = -weight * tangential * u[0];
          with_t[2] = -weight * tangential * u[1];
@@ -299,18 +280,19 @@ public:
       return true;
    }
 
-   bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number,
-                              Number, Number, Number, Number, Number, Index,
-                              const Ipopt::IpoptData *,
-                              Ipopt::IpoptCalculatedQuantities *) override
+   bool goes_on(int iteration) const override
    {
       return !settings.goes_on || settings.goes_on(iteration);
    }
 
-   void finalize_solution(Ipopt::SolverReturn, Index, const Number *x, const Number *z_low,
-                          const Number *, Index, const Number *, const Number *lambda, Number,
-                          const Ipopt::IpoptData *, Ipopt::IpoptCalculatedQuantities *) override
+   /// The limit, the residual forces and the mechanism that a solution is.
+   ConeSolution found(const ProgrammeSolution &point) const
    {
+      ConeSolution solution;
+      solution.iterations = point.iterations;
+      if (point.x.size() == 0) { return solution; }
+      const double *x = point.x.data(), *z_low = point.z_low.data(),
+                   *lambda = point.lambda.data();
       const Eigen::VectorXd &s = programme.force_scale;
       solution.theta = x[0] * programme.theta_scale;
       solution.r = Eigen::Map<const Eigen::VectorXd>(x + 1, m).cwiseProduct(s.replicate(c, 1));
@@ -340,11 +322,12 @@ public:
          }
          mechanism.limit(i, j) = by_limit;
       }
+      return solution;
    }
 
 private:
    /// The bound over s of cone k, that is of node k % n in column k / n.
-   double limit(const Number *x, Eigen::Index k) const
+   double limit(const double *x, Eigen::Index k) const
    {
       const Eigen::Index i = k % n, j = k / n;
       const double change = coupled ? x[first_pi + i] : 0.0;
@@ -352,7 +335,7 @@ private:
    }
 
    /// (q + a p) / s of cone k; the second component is zero if there is but one.
-   Eigen::Vector2d shear(const Number *x, Eigen::Index k) const
+   Eigen::Vector2d shear(const double *x, Eigen::Index k) const
    {
       const Eigen::Index i = k % n, j = k / n;
       Eigen::Vector2d q = Eigen::Vector2d::Zero();
@@ -367,7 +350,7 @@ private:
 
    const ConeProgramme &programme;
    const ConeSettings &settings;
-   const ConeStart &start;
+   const ConeStart &from;
    const Eigen::Index n, c, m, columns, cones, rigid;
    const bool coupled, disc;
    const double tangential; ///< what r does to the tangential forces: 1, or 0 if left out
@@ -376,53 +359,40 @@ private:
    Eigen::MatrixXd q0, q1, bound0, bound1, skew, transfer, balance;
 };
 
-/// One run of Ipopt. A convex programme needs no globalisation of the barrier parameter, and is
-/// twice as fast without.
-ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &settings,
-                       const ConeStart &start)
+/// One run. A convex programme needs no globalisation of the barrier parameter, and is twice as
+/// fast without.
+ConeSolution run_once(const ConeProgramme &programme, const ConeSettings &settings,
+                      const ConeStart &start)
 {
-   using namespace Ipopt;
-   SmartPtr<ConeNlp> nlp = new ConeNlp(programme, settings, start);
-   const SmartPtr<IpoptApplication> app = ipopt(settings.tolerance, settings.max_iterations);
-   const SmartPtr<OptionsList> options = app->Options();
-   options->SetStringValue("jac_c_constant", "yes");
-   if (programme.components() == 1)
-   {
-      options->SetStringValue("jac_d_constant", "yes");
-      options->SetStringValue("hessian_constant", "yes");
-   }
-   options->SetStringValue("mu_strategy", "adaptive");
-   options->SetStringValue("adaptive_mu_globalization", "never-monotone-mode");
-   if (start.mechanism.slip.size())
-   {
-      options->SetStringValue("warm_start_init_point", "yes");
-      // The default would push every multiplier up to 1e-3 and spoil most of what is known.
-      options->SetNumericValue("warm_start_mult_bound_push", 1e-9);
-   }
-   const ApplicationReturnStatus status = optimize(*app, nlp);
-
-   ConeSolution solution = nlp->solution;
-   const SmartPtr<SolveStatistics> statistics = app->Statistics();
-   if (IsValid(statistics)) { solution.iterations = statistics->IterationCount(); }
+   const ConeNlp cones(programme, settings, start);
+   ProgrammeSettings of;
+   of.tolerance = settings.tolerance;
+   of.max_iterations = settings.max_iterations;
+   of.linear_equations = of.convex = true;
+   of.linear = programme.components() == 1;
+   const ProgrammeSolution point = solve(cones, of);
+   ConeSolution solution = cones.found(point);
+   solution.message = point.message;
    const double ceiling = programme.ceiling * programme.theta_scale;
-   switch (status)
+   switch (point.outcome)
    {
-   case Solve_Succeeded:
+   case ProgrammeOutcome::solved:
       solution.outcome =
          solution.theta > 0.99 * ceiling ? ConeOutcome::ceiling : ConeOutcome::solved;
       break;
-   case Infeasible_Problem_Detected:
+   case ProgrammeOutcome::infeasible:
       solution.outcome = ConeOutcome::infeasible;
       solution.message = "Ipopt found no admissible point";
       break;
-   case User_Requested_Stop:
+   case ProgrammeOutcome::stopped:
       solution.outcome = ConeOutcome::stopped;
-      solution.message = "it was asked to stop";
       break;
-   default:
+   case ProgrammeOutcome::unavailable:
+      solution.outcome = ConeOutcome::unavailable;
+      break;
+   case ProgrammeOutcome::failed:
       // A point was returned all the same; what it proves is for the caller to find out.
       solution.outcome = ConeOutcome::failed;
-      solution.message = "Ipopt ended with return status " + std::to_string(status);
    }
    return solution;
 }
@@ -437,28 +407,16 @@ ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
       ConeSolution found = solve_by_interior_points(programme, settings, start);
       if (found.outcome != ConeOutcome::failed) { return found; }
    }
-   ConeSolution solution = run_ipopt(programme, settings, start);
+   ConeSolution solution = run_once(programme, settings, start);
    const bool failed =
       solution.outcome == ConeOutcome::failed || solution.outcome == ConeOutcome::infeasible;
    if (failed && start.mechanism.slip.size() > 0) // multipliers that led astray
    {
       const int spent = solution.iterations;
-      solution = run_ipopt(programme, settings, {start.theta, start.r, {}});
+      solution = run_once(programme, settings, {start.theta, start.r, {}});
       solution.iterations += spent;
    }
    return solution;
 }
-
-#else
-
-ConeSolution solve(const ConeProgramme &, const ConeSettings &, const ConeStart &)
-{
-   ConeSolution solution;
-   solution.outcome = ConeOutcome::unavailable;
-   solution.message = "built without Ipopt (CATTANEO_USE_IPOPT=OFF)";
-   return solution;
-}
-
-#endif
 
 } // namespace cattaneo

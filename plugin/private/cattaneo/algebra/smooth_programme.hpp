@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cattaneo/algebra/nonlinear_programme.hpp>
 #include <functional>
 #include <string>
 
@@ -21,18 +21,10 @@ struct SmoothProgramme
    std::function<bool(int iteration)> goes_on; ///< asked in every iteration
 };
 
-enum class SmoothOutcome
-{
-   solved,
-   failed,
-   stopped,
-   unavailable ///< built without Ipopt
-};
-
 /// With ∇f + Σ λ ∇c + z = 0, multipliers of upper bounds positive.
 struct SmoothSolution
 {
-   SmoothOutcome outcome = SmoothOutcome::failed;
+   ProgrammeOutcome outcome = ProgrammeOutcome::failed;
    std::string message;
    Eigen::VectorXd y, z, lambda;
    int iterations = 0;

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+namespace cattaneo
+{
+
+/** The least f(x) under low ≤ x ≤ high and least ≤ c(x) ≤ most, as Ipopt asks for it. What has
+    second derivatives is f + λ·c. Matrices are sparse: their places are asked for once, with
+    `values` null, and afterwards the values in the same order. Functions that return false have
+    no value there. */
+class NonlinearProgramme
+{
+public:
+   struct Sizes
+   {
+      Eigen::Index variables = 0, conditions = 0, jacobian = 0, hessian = 0;
+   };
+   /// Bounds of 2e19 and more are none.
+   struct Bounds
+   {
+      Eigen::VectorXd low, high, least, most;
+   };
+   virtual ~NonlinearProgramme() = default;
+   virtual Sizes sizes() const = 0;
+   virtual Bounds bounds() const = 0;
+   virtual Eigen::VectorXd start() const = 0;
+   /// Multipliers of the conditions to start from; empty: none are known.
+   virtual Eigen::VectorXd multipliers() const { return {}; }
+   virtual bool value(const double *x, double &f) const = 0;
+   virtual bool gradient(const double *x, double *f) const = 0;
+   virtual bool conditions(const double *x, double *c) const = 0;
+   virtual bool jacobian(const double *x, int *row, int *column, double *values) const = 0;
+   /// The lower triangle, of the conditions alone: f is linear or no second derivatives are
+   /// asked for.
+   virtual bool hessian(const double *, const double *, int *, int *, double *) const
+   {
+      return true;
+   }
+   /// Asked in every iteration.
+   virtual bool goes_on(int) const { return true; }
+};
+
+/// What a programme is known to be, for the method to use.
+struct ProgrammeSettings
+{
+   double tolerance = 1e-8; ///< of all conditions of optimality
+   int max_iterations = 300;
+   bool second_derivatives = true; ///< or estimates from the steps
+   bool linear_equations = false;  ///< derivatives of equations are constant
+   bool linear = false;            ///< those of all conditions are, and there are no others
+   bool convex = false;            ///< needs no safeguard of the barrier parameter
+};
+
+enum class ProgrammeOutcome
+{
+   solved,
+   infeasible, ///< no point was found that holds all conditions
+   failed,
+   stopped,
+   unavailable ///< built without Ipopt
+};
+
+/// With ∇f + Σ λ ∇c - z_low + z_high = 0.
+struct ProgrammeSolution
+{
+   ProgrammeOutcome outcome = ProgrammeOutcome::failed;
+   std::string message; ///< why it was not solved
+   Eigen::VectorXd x, z_low, z_high, lambda;
+   int iterations = 0;
+};
+
+/// By Ipopt, silent and without scaling: everything should be of order one.
+ProgrammeSolution solve(const NonlinearProgramme &programme, const ProgrammeSettings &settings);
+
+} // namespace cattaneo
