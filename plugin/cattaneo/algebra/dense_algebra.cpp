@@ -1,5 +1,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
@@ -35,6 +36,11 @@ MatrixXd at_rest(const MatrixXd &Z, const MatrixXd &rows)
    if (Z.cols() == 0) { return Z; }
    const SymmetricModes modes = symmetric_modes(rows.transpose() * rows);
    return Z * modes.vectors.leftCols((modes.values.array() < 1e-14).count());
+}
+
+MatrixXd solve_square(const MatrixXd &A, const MatrixXd &B)
+{
+   return A.partialPivLu().solve(B);
 }
 
 MatrixXd solve_semidefinite(const MatrixXd &A, const MatrixXd &b)

@@ -1,4 +1,5 @@
 #include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
@@ -38,8 +39,8 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
       if (!free.empty())
       {
          DenseCholesky follows;
-         if (!follows.compute(C(free, free))) { return found; }
-         VectorXd its = -p(free) - C(free, closed) * moved(closed);
+         if (!follows.compute(block_of(C, free, free))) { return found; }
+         VectorXd its = -p(free) - product(block_of(C, free, closed), rows_of(moved, closed));
          follows.solve(its);
          for (std::size_t k = 0; k < free.size(); ++k)
          {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/interface_rows.hpp>
 #include <map>
@@ -218,7 +219,8 @@ SeparateBodies separate(const std::vector<CondensedBody> &bodies,
    {
       const std::vector<int> &free = map.free[b];
       const auto rows = static_cast<Index>(free.size());
-      result.K.block(map.offsets[b], map.offsets[b], rows, rows) = bodies[b].S(free, free);
+      result.K.block(map.offsets[b], map.offsets[b], rows, rows) =
+         block_of(bodies[b].S, free, free);
       forces.push_back(
          clamped_forces(bodies[b], index[b], static_cast<Index>(result.patterns.size())));
    }

@@ -1,4 +1,5 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/reduced/union.hpp>
 
 namespace cattaneo
@@ -33,16 +34,17 @@ MatrixXd common_coefficients(const std::vector<CondensedBody> &bodies,
    {
       const ThinQR R = thin_qr(about(bodies[b], centre, size));
       const MatrixXd &Q = bodies[b].free_motions;
-      const MatrixXd rest = R.Q - Q * (Q.transpose() * R.Q);
-      const SymmetricModes modes = symmetric_modes(rest.transpose() * rest);
+      MatrixXd rest = R.Q;
+      add_product(rest, Q, transposed_product(Q, R.Q), -1);
+      const SymmetricModes modes = symmetric_modes(transposed_product(rest, rest));
       const Index held = (modes.values.array() > 1e-9).count();
       // Motions Rc that are free: those whose part along the resisted directions vanishes.
-      MatrixXd rows = modes.vectors.rightCols(held).transpose() * R.R;
+      MatrixXd rows = transposed_product(modes.vectors.rightCols(held), R.R);
       for (Index k = 0; k < rows.rows(); ++k) { rows.row(k).normalize(); }
       resisted.conservativeResize(resisted.rows() + held, R.R.cols());
       resisted.bottomRows(held) = rows;
    }
-   const SymmetricModes modes = symmetric_modes(resisted.transpose() * resisted);
+   const SymmetricModes modes = symmetric_modes(transposed_product(resisted, resisted));
    return modes.vectors.leftCols((modes.values.array() < 1e-14).count());
 }
 
@@ -63,7 +65,7 @@ MatrixXd common_motions(const std::vector<CondensedBody> &bodies, const std::vec
    for (int b : group)
    {
       motions.middleRows(map.offsets[b], static_cast<Index>(map.free[b].size())) =
-         (about(bodies[b], box.center(), size) * c)(map.free[b], Eigen::all);
+         rows_of(product(about(bodies[b], box.center(), size), c), map.free[b]);
    }
    return thin_qr(motions).Q;
 }
@@ -78,12 +80,12 @@ MatrixXd motions_apart(const std::vector<CondensedBody> &bodies,
       all.conservativeResizeLike(MatrixXd::Zero(map.size(), all.cols() + own.cols()));
       all.rightCols(own.cols())
          .middleRows(map.offsets[b], static_cast<Index>(map.free[b].size())) =
-         own(map.free[b], Eigen::all);
+         rows_of(own, map.free[b]);
    }
    if (Y.cols() == 0) { return all; }
-   const MatrixXd along = Y.transpose() * all;
-   const SymmetricModes modes = symmetric_modes(along.transpose() * along);
-   return all * modes.vectors.leftCols(all.cols() - Y.cols());
+   const MatrixXd along = transposed_product(Y, all);
+   const SymmetricModes modes = symmetric_modes(transposed_product(along, along));
+   return product(all, modes.vectors.leftCols(all.cols() - Y.cols()));
 }
 
 } // namespace cattaneo

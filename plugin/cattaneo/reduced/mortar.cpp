@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/facing.hpp>
@@ -197,11 +199,10 @@ DualFunctions made_of(const MatrixXd &tests, const MatrixXd &phi, const VectorXd
                       const std::vector<int> &nodes)
 {
    // ψ = diag(D) N⁻¹ B for N = ∫B φᵀ: ∫ψ_i φ_j = D_i δ_ij among the nodes with functions.
-   const MatrixXd own = phi(nodes, Eigen::all);
+   const MatrixXd own = rows_of(phi, nodes);
    const MatrixXd B = tests * weights.asDiagonal();
-   const VectorXd D = own * weights;
-   const Eigen::PartialPivLU<MatrixXd> N(MatrixXd(B * own.transpose()));
-   DualFunctions found{nodes, D.asDiagonal() * N.solve(B)};
+   const VectorXd D = product(own, weights);
+   DualFunctions found{nodes, D.asDiagonal() * solve_square(product(B, own.transpose()), B)};
    const VectorXd sums = found.weighted.rowwise().sum();
    found.positive = sums.minCoeff() > 0 && (D - least_own * sums).minCoeff() > 0 &&
                     found.weighted.allFinite();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/input_error.hpp>
@@ -190,7 +191,7 @@ void check_facts(const ReducedProblem &problem)
            " rows, must have ", m + n,
            " (and no columns if the bodies are held; complete() seeks them)");
    require(Z.allFinite(), "reduced problem: a rigid motion has an entry that is not finite");
-   require((Z.transpose() * Z).isIdentity(1e-9),
+   require(transposed_product(Z, Z).isIdentity(1e-9),
            "reduced problem: the rigid motions are not orthonormal");
    check_motions(problem);
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/reduced/relative_displacement.hpp>
 #include <cmath>
 #include <limits>
@@ -233,7 +234,7 @@ RelativeDisplacement::stacked(const std::vector<Eigen::MatrixXd> &of_bodies) con
    for (std::size_t b = 0; b < of_bodies.size(); ++b)
    {
       all.middleRows(offsets[b], static_cast<Index>(free[b].size())) =
-         of_bodies[b](free[b], Eigen::all);
+         rows_of(of_bodies[b], free[b]);
    }
    return all;
 }

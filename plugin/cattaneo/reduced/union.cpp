@@ -43,27 +43,40 @@ Stiffness stiffness(const std::vector<CondensedBody> &bodies, const RelativeDisp
          RelativeDisplacement::Matrix(map.E.middleRows(map.offsets[b], rows)).transpose();
       const int *begin = Et.outerIndexPtr(), *row = Et.innerIndexPtr();
       const double *share = Et.valuePtr();
-      VectorXd column(rows);
-      const auto felt = [&](Index d)
+      // Where nodes match no coordinate has more than one.
+      bool single = true;
+      std::vector<int> only_row(size, 0);
+      VectorXd only_share = VectorXd::Zero(size), column(rows);
+      for (Index c = 0; c < size; ++c)
       {
-         double sum = 0;
-         for (int e = begin[d]; e < begin[d + 1]; ++e) { sum += share[e] * column[row[e]]; }
-         return sum;
+         single = single && begin[c + 1] - begin[c] <= 1;
+         if (begin[c] == begin[c + 1]) { continue; }
+         only_row[c] = row[begin[c]];
+         only_share[c] = share[begin[c]];
+      }
+      const auto add_felt = [&](Index first, Index last, double *to)
+      {
+         for (Index d = first; d < last && single; ++d, ++to)
+         {
+            *to += only_share[d] * column[only_row[d]];
+         }
+         for (Index d = first; d < last && !single; ++d, ++to)
+         {
+            for (int e = begin[d]; e < begin[d + 1]; ++e) { *to += share[e] * column[row[e]]; }
+         }
       };
-      const bool all_free = rows == S.rows();
       for (Index c = 0; c < size; ++c)
       {
          if (begin[c] == begin[c + 1]) { continue; }
          column.setZero();
          for (int e = begin[c]; e < begin[c + 1]; ++e)
          {
-            const auto of = S.col(free[row[e]]);
-            if (all_free) { column += share[e] * of; }
-            else { column += share[e] * of(free); }
+            const double *of = S.col(free[row[e]]).data();
+            for (Index r = 0; r < rows; ++r) { column[r] += share[e] * of[free[r]]; }
          }
-         for (Index d = c; d < m; ++d) { K.uu(d, c) += felt(d); }
-         auto below = c < m ? K.yu.col(c) : K.yy.col(c - m);
-         for (Index d = std::max(c, m); d < size; ++d) { below[d - m] += felt(d); }
+         const Index y = std::max(c, m);
+         if (c < m) { add_felt(c, m, &K.uu(c, c)); }
+         if (y < size) { add_felt(y, size, c < m ? &K.yu(0, c) : &K.yy(y - m, c - m)); }
       }
    }
    return K;
@@ -356,8 +369,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
    const MatrixXd &Q = qr.Q;
    if (moving.cols() > 0 && rest > 0)
    {
-      const MatrixXd work =
-         qr.R.transpose().triangularView<Eigen::Lower>().solve(transposed_product(moving, F));
+      const MatrixXd work = solve_square(qr.R.transpose(), transposed_product(moving, F));
       remove_motions(S, Q);
       add_product(f, Q, work - transposed_product(Q, f));
    }

@@ -29,6 +29,9 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &matrix);
 /// its square.
 Eigen::MatrixXd at_rest(const Eigen::MatrixXd &Z, const Eigen::MatrixXd &rows);
 
+/// A⁻¹ B of a square A that is not singular, by LU with row pivoting.
+Eigen::MatrixXd solve_square(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B);
+
 /// A⁻¹ b of a symmetric positive semidefinite A by pivoted LDLᵀ, where b lies in its range.
 Eigen::MatrixXd solve_semidefinite(const Eigen::MatrixXd &A, const Eigen::MatrixXd &b);
 
