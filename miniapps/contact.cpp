@@ -141,6 +141,8 @@ void contact(Study &study)
    require(options.edges.empty() || (joint.faces.size() == 1 && own.known_elements),
            "option edges is for one interface of bodies with elements, the case has ",
            joint.faces.size(), own.known_elements ? "" : " and a body that is a matrix");
+   require(options.edges.empty() || std::isnan(options.thickness),
+           "option edges is per thickness, it goes without the key 'thickness'");
    require(options.edges.empty() || (problem.nodes() > 0 && problem.friction.maxCoeff() > 0),
            "option edges needs friction: without it nothing is stuck");
    history.about_axis = joint.formulation != Formulation::plane;

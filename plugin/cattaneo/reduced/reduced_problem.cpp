@@ -132,7 +132,7 @@ void check_motions(const ReducedProblem &problem)
    const Eigen::MatrixXd &Z = problem.rigid_motions;
    if (Z.cols() == 0) { return; }
    const double resisted =
-      (problem.K * Z).cwiseAbs().maxCoeff() / problem.K.cwiseAbs().maxCoeff();
+      product(problem.K, Z).cwiseAbs().maxCoeff() / problem.K.cwiseAbs().maxCoeff();
    require(resisted <= 1e-11, "reduced problem: a rigid motion meets forces of ", resisted,
            " of the stiffness, must meet none (1e-11)");
 }
