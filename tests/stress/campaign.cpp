@@ -253,8 +253,11 @@ private:
       note(wrong_loss, double(off / (most + scale * far)), text);
    }
 
-   /// An increment to these loads that was not solved: is what is said of it true?
-   void failed(FrictionStatus status, const std::string &message, const Eigen::VectorXd &loads)
+   /// An increment to these loads that was not solved: is what is said of it true? Where a
+   /// march ended that is so if it is at any of several loads beyond, the first the farthest:
+   /// there may be equilibria again soon.
+   void failed(FrictionStatus status, const std::string &message,
+               const std::vector<Eigen::VectorXd> &loads)
    {
       const bool stall = status == FrictionStatus::stalled;
       if (!stall) ++(status == FrictionStatus::gross_sliding ? row_->sliding : row_->none);
@@ -262,7 +265,11 @@ private:
       if (!stall || laws_->K.rows() <= 40)
       {
          if (!existence_) existence_ = std::make_unique<Existence>(*laws_);
-         none = existence_->none(u_, loads);
+         for (const Eigen::VectorXd &load : loads)
+         {
+            none = existence_->none(u_, load);
+            if (none != Verdict::wrong) break;
+         }
       }
       const char *const truths[] = {"there is no equilibrium", "there is one",
                                     "not known whether there is one"};
@@ -307,7 +314,7 @@ private:
             ++row_->methods["none"];
             if (Laws::displacements(state) != u_)
                note(violated, 1, "a failure moved the state");
-            failed(report.status, report.message, made_->history[k]);
+            failed(report.status, report.message, {made_->history[k]});
          }
       }
    }
@@ -346,9 +353,11 @@ private:
          ++row_->increments;
          const std::size_t piece = std::min<std::size_t>(
             std::max(0.0, std::floor(report.event_time)), made_->history.size() - 2);
-         const Eigen::VectorXd end = made_->history[piece + 1];
-         failed(report.status, report.message,
-                report.event_multipliers + 1e-3 * (end - report.event_multipliers));
+         const Eigen::VectorXd rest = made_->history[piece + 1] - report.event_multipliers;
+         std::vector<Eigen::VectorXd> beyond;
+         for (const double share : {1e-3, 1e-4, 1e-5})
+            beyond.push_back(report.event_multipliers + share * rest);
+         failed(report.status, report.message, beyond);
       }
    }
 };

@@ -510,6 +510,7 @@ void ExactPath::write(ContactState &state, std::vector<NodeState> states, double
    {
       if (!closed(state.status[i])) { state.q[i] = state.p[i] = 0; }
    }
+   for (const Index row : problem_.held) { state.v[row] = state.q[row] = 0; }
 }
 
 bool ExactPath::advance(ContactState &state, const PathWay &way,

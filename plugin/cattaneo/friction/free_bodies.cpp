@@ -372,8 +372,7 @@ bool moves_away(Increment &at)
 Search weak_springs(Increment &at)
 {
    if (moves_away(at) || !at.springs->state) { return Search::not_here; }
-   const ContactState &there = *at.springs->state;
-   at.move_to(at.system.frictionless() ? there.w : there.displacements(), there.status);
+   at.move_to(*at.springs->state);
    if (newton(at)) { return Search::found; }
    return at.springs->bear_nothing ? Search::hopeless : Search::not_here;
 }

@@ -3,6 +3,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 namespace cattaneo
 {
@@ -43,28 +44,32 @@ struct Method
 constexpr Method springs{"weak springs", weak_springs, true};
 
 /// In the order in which they are tried, with one tangent or none:
-const Method in_the_plane[] = {
+const std::vector<Method> in_the_plane = {
    // Nearly every increment.
    {"active set", active_set, false},
-   // Strong coupling and stiffness like a Hilbert matrix, where Newton's steps go round in a
-   // circle, and free bodies.
+   // Strong coupling and stiffness like a Hilbert matrix, where Newton's steps repeat
+   // themselves, and free bodies.
    {"Lemke", lemke, false},
    springs,
    // A few of the same families, of which the ways from the start end in rays.
    {"Lemke", lemke_from_afar, true}};
 
 /// With two tangents:
-const Method in_the_disc[] = {
+const std::vector<Method> in_the_disc = {
    // Nearly every increment.
    {"active set", active_set_in_the_disc, false},
    springs,
    // Strong coupling, nodes at one place, nearly singular stiffness.
    {"damped Newton", damped_newton, true}};
 
-template <class Methods>
-bool find_end_by(const Methods &methods, Increment &at, bool thorough)
+bool find_end(Increment &at, bool thorough = true)
 {
-   for (const Method &method : methods)
+   if (at.system.settings.method == FrictionMethod::gauss_seidel)
+   {
+      at.report.found_by = "sweeps";
+      return gauss_seidel(at) == Search::found;
+   }
+   for (const Method &method : at.system.disc() ? in_the_disc : in_the_plane)
    {
       if (method.thorough && !thorough) { break; }
       const Search search = method.find(at);
@@ -76,17 +81,6 @@ bool find_end_by(const Methods &methods, Increment &at, bool thorough)
    return false;
 }
 
-bool find_end(Increment &at, bool thorough = true)
-{
-   if (at.system.settings.method == FrictionMethod::gauss_seidel)
-   {
-      at.report.found_by = "sweeps";
-      return gauss_seidel(at) == Search::found;
-   }
-   return at.system.disc() ? find_end_by(in_the_disc, at, thorough)
-                           : find_end_by(in_the_plane, at, thorough);
-}
-
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
 /// an imbalance that no residual shows, or one that nothing holds and that could as well stay.
 bool runs_away(Increment &at)
@@ -95,18 +89,19 @@ bool runs_away(Increment &at)
           (moves_away(at) || at.springs->bear_nothing);
 }
 
-/// Free bodies on springs that bear nothing: what these hold stays where it is.
+/// Free bodies whose springs bear nothing, as under loads that balance each other: they stay
+/// where these have them.
 bool rests(Increment &at)
 {
    if (moves_away(at) || !at.springs->bear_nothing) { return false; }
-   const ContactState &there = *at.springs->state;
-   at.move_to(at.system.frictionless() ? there.w : there.displacements(), there.status);
+   at.move_to(*at.springs->state);
    at.report = {};
    at.report.found_by = "rest";
    return ends_with_least_motion(at);
 }
 
-/// A frictionless contact with its slip among the unknowns.
+/// A frictionless contact with its slip among the unknowns, as a pad that rocks on a line that
+/// is nearly straight needs it.
 IncrementReport solve_with_slip(FrictionSystem &system, ContactState &state,
                                 const VectorXd &multipliers)
 {

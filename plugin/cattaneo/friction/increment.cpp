@@ -82,6 +82,11 @@ void Increment::move_to(const VectorXd &displacements, const std::vector<NodeSta
    find_pieces();
 }
 
+void Increment::move_to(const ContactState &there)
+{
+   move_to(system.frictionless() ? there.w : there.displacements(), there.status);
+}
+
 void Increment::find_pieces()
 {
    if (!system.disc() && system.bends()) { piece = F.tail(system.n).cwiseMax(0.0); }
@@ -113,6 +118,9 @@ ContactState Increment::end() const
                                                       : NodeState::backward_slip;
       }
    }
+   // What a support holds does not move, also where all forces are round-off and any state is
+   // an answer.
+   for (const Index row : s.problem.held) { next.v[row] = next.q[row] = 0; }
    // Round-off must not look like traction or penetration.
    for (Index i = 0; i < s.n; ++i)
    {

@@ -69,6 +69,7 @@ struct Increment
    double round_off_along(const VectorXd &rows, Index i) const;
 
    void move_to(const VectorXd &displacements, const std::vector<NodeState> &states);
+   void move_to(const ContactState &there);
    /// The pieces at the present pressures, of bounds that bend.
    void find_pieces();
    void go_back() { move_to(swept.u, swept.status); }
