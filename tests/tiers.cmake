@@ -5,7 +5,7 @@
 set(helpers_with_mfem "/support/(axisymmetric_integrator|elastic_support|punch_problem|two_blocks)\\.cpp$")
 
 # With CMAKE_UNITY_BUILD so many bytes of tests are compiled as one file: more take less time, and more memory.
-set(bytes_compiled_as_one 35000)
+set(bytes_compiled_as_one 30000)
 
 set(rooms_of_tests ${CMAKE_CURRENT_LIST_DIR}/rooms.txt)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rooms_of_tests})
