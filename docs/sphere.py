@@ -38,7 +38,8 @@ for axis, title, values in ((axes[0], "Pressure, MPa", state.p), (axes[1], "Shea
     figure.colorbar(picture, ax=axis)
     axis.set_title(title)
 axes[2].pcolormesh(x, y, words.reshape(x.shape), cmap=ListedColormap(list(STATES.values())), vmin=0, vmax=2)
-axes[2].legend(handles=[Patch(facecolor=colour, edgecolor="#555555", label=word) for word, colour in STATES.items()], loc="upper right", fontsize=8)
+axes[2].legend(handles=[Patch(facecolor=colour, edgecolor="#555555", label=word) for word, colour in STATES.items()],
+               loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=3, frameon=False, fontsize=8)
 axes[2].set_title("States")
 for axis in axes:
     axis.set(aspect="equal", xlabel="x, mm", ylabel="y, mm")
