@@ -1181,6 +1181,90 @@ TEST_F(Interfaces, ShanksAreSprings)
    expect_input_error([&] { shanks.add_shank("P", -1); }, "its stiffness is -1");
 }
 
+/// An obstacle that is free to rise, under a force, and to turn, without one: with how far it
+/// has gone put back, all is as on an obstacle at rest, and its own forces balance.
+TEST_F(Interfaces, ObstaclesUnderForcesAreInEquilibrium)
+{
+   Truss body({side({0, 0}, {2, 0}, 5, 2)}, {1, 1});
+   body.hold().load("P").lift("D");
+   Reduction rest = reduce(body.condensed()), free = reduce(body.condensed());
+   const auto up = [](double, double) { return 1.0; };
+   const auto turns_x = [](double, double y) { return 0.5 - y; };
+   const auto turns_y = [](double x, double) { return x - 0.7; };
+   free.free_obstacles({{"Q", 3, {{0, 0.0, up}}}, {"", 1, {{0, turns_x, turns_y}}}});
+   free.problem.validate();
+   const Index n = rest.problem.nodes();
+   MatrixXd D = MatrixXd::Zero(2 * n, 2);
+   for (Index i = 0; i < n; ++i)
+   {
+      const Vector2d x = rest.interfaces[0].position.row(i),
+                     t = rest.interfaces[0].tangent.row(i), normal(-t[1], t[0]);
+      const Vector2d moves[] = {{0, 1}, {turns_x(0, x[1]), turns_y(x[0], 0)}};
+      for (Index a : {0, 1})
+      {
+         D(i, a) = moves[a].dot(t);
+         D(n + i, a) = moves[a].dot(normal);
+      }
+   }
+   VectorXd u(2 * n), loads(3);
+   for (VectorXd *some : {&u, &loads})
+   {
+      for (double &value : *some) { value = random_number(); }
+   }
+   const auto forces = [](const ReducedProblem &problem, const VectorXd &moved,
+                          const VectorXd &by) -> VectorXd
+   { return problem.K * moved + problem.clamped_forces(by); };
+   const auto conjugate =
+      [](const ReducedProblem &problem, const VectorXd &moved, const VectorXd &by)
+   {
+      ContactState state = ContactState::virgin(problem);
+      state.v = moved.head(problem.slips());
+      state.w = moved.tail(problem.nodes());
+      state.multipliers = by;
+      return conjugates(problem, state);
+   };
+   const VectorXd f = forces(free.problem, u, loads);
+   EXPECT_NEAR(D.col(0).dot(f), 3 * loads[2], 1e-11);
+   EXPECT_NEAR(D.col(1).dot(f), 0, 1e-11);
+   // How far it turns makes the rest of the forces those of an obstacle at rest.
+   const VectorXd g = conjugate(free.problem, u, loads);
+   const double rises = g[2] / 3;
+   const VectorXd left = f - forces(rest.problem, u + rises * D.col(0), loads.head(2)),
+                  of_turn = rest.problem.K * D.col(1);
+   const double turned = left.dot(of_turn) / of_turn.squaredNorm();
+   EXPECT_LT(difference(left, turned * of_turn), 1e-11);
+   const VectorXd U = u + rises * D.col(0) + turned * D.col(1);
+   EXPECT_LT(difference(g.head(2), conjugate(rest.problem, U, loads.head(2))), 1e-11);
+   const VectorXd field = free.displacement(0, u.head(n), u.tail(n), loads);
+   EXPECT_LT(difference(field, rest.displacement(0, U.head(n), U.tail(n), loads.head(2))),
+             1e-11);
+   // What the contact puts on the nodes of the body is what its other forces leave.
+   const Eigen::MatrixX2d on = rest.contact_forces(0, f.head(n), f.tail(n));
+   VectorXd residual = body.K * field - loads[0] * body.loads[0].values;
+   for (Index i = 0; i < n; ++i)
+   {
+      const LineNode &node = body.lines[0].nodes[i];
+      EXPECT_NEAR(residual[node.dofs[0]], on(i, 0), 1e-10);
+      EXPECT_NEAR(residual[node.dofs[1]], on(i, 1), 1e-10);
+   }
+   expect_input_error(
+      [&] {
+         free.free_obstacles({{"R", 1, {{0, 0.0, up}}}});
+      },
+      "they have been freed already");
+   expect_input_error([&] { rest.free_obstacles({}); }, "there is no motion");
+   expect_input_error(
+      [&] {
+         rest.free_obstacles({{"P", 1, {{0, 0.0, up}}}});
+      },
+      "a load pattern of that name is there already");
+   expect_input_error(
+      [&] {
+         rest.free_obstacles({{"Q", 1, {{0, 0.0, up}}}, {"R", 1, {{0, 0.0, up}}}});
+      },
+      "the bodies do not resist all of their motions");
+}
+
 /// Bolts that are tightened one after the other, under a load, and again: each has the force of
 /// the history when its tightening ends, does nothing before, and is a spring afterwards. A
 /// march is taken up from any of its states, amid a tightening too.
