@@ -63,6 +63,22 @@ void require_some(const std::vector<CondensedBody> &bodies,
            interfaces.size(), " interfaces, must be at least one of each");
 }
 
+/// Do supports hold an end of a line in both components? It carries no row then, and its
+/// neighbours take its part, which they do not in a pairing.
+bool has_clamped_end(const CondensedBody &body)
+{
+   const auto clamped = [&](Index node)
+   {
+      const auto k = static_cast<int>(node);
+      return holds(body, k, 0) && holds(body, k, 1);
+   };
+   return std::any_of(body.line.chains.begin(), body.line.chains.end(),
+                      [&](const LineChain &chain) {
+                         return !chain.loop && (clamped(chain.first) ||
+                                                clamped(chain.first + chain.nodes - 1));
+                      });
+}
+
 /// The interface of two bodies whose whole lines match, node by node, as a pairing.
 std::vector<Interface> paired_if_matching(const std::vector<CondensedBody> &bodies,
                                           std::vector<Interface> interfaces)
@@ -71,7 +87,7 @@ std::vector<Interface> paired_if_matching(const std::vector<CondensedBody> &bodi
    const auto is_all = [&](const InterfaceSide &side, int b)
    {
       const ContactLine &line = bodies[b].line;
-      return side.body == b && side.line.size() == line.size() &&
+      return side.body == b && side.line.size() == line.size() && !has_clamped_end(bodies[b]) &&
              std::equal(line.nodes.begin(), line.nodes.end(), side.line.nodes.begin(),
                         [](const LineNode &i, const LineNode &j) { return i.dofs == j.dofs; });
    };
