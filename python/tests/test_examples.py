@@ -50,6 +50,19 @@ def test_calculix_loop(tmp_path):
     assert loss(again) == pytest.approx(loss(shipped), rel=1e-5)
 
 
+def test_sphere(tmp_path):
+    """Hertz, Cattaneo and Mindlin to half a per cent, torsion of few squares to five, and areas within their ±."""
+    pytest.importorskip("matplotlib")
+    figure = tmp_path / "sphere.png"
+    out = run(EXAMPLES / "sphere.py", 11, figure)
+    for line in out.splitlines():
+        if line.startswith(("Hertz", "Cattaneo", "torsion")):
+            computed, exact = (float(word) for word in line.split()[-4:-2])
+            allowed = re.search(r"± ([\d.]+)", line)
+            assert computed == pytest.approx(exact, abs=float(allowed[1]) if allowed else (0.05 if "torsion" in line else 5e-3) * exact), line
+    assert "once around a circle" in out and "Spence" in out and figure.stat().st_size > 10000
+
+
 def test_monte_carlo():
     out = run(EXAMPLES / "monte_carlo.py", ROOT / "problems" / "hertz.json", 40)
     assert out.startswith("40 marches of 41 nodes") and "0 of them did not converge" in out

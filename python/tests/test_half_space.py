@@ -102,9 +102,39 @@ def test_torsion_of_squares_and_of_rings():
     assert abs(state.q[n:] @ r) == pytest.approx(torque, rel=5e-3)
 
 
+def test_contact_at_the_rim_is_said_to_be_cut_off():
+    """Squares that a sphere presses all of: the march warns, unless a body ends there. The resultant is the load."""
+    gap = (squares(5, 0.2) ** 2).sum(axis=1) / 40
+    for ends in (False, True):
+        space = cattaneo.HalfSpace(MATERIAL, size=0.2, centres=squares(5, 0.2), ends=ends)
+        problem = space.problem(gap)
+        problem.friction = 0.3
+        assert len(problem.rim) == (0 if ends else 16) and problem.position.shape == (25, 3)
+        if ends:
+            state = cattaneo.march(problem, [{}, {"P": 1.0}], settings=ONE).state
+        else:
+            with pytest.warns(cattaneo.OutcomeWarning, match="up to the rim of its surface"):
+                state = cattaneo.march(problem, [{}, {"P": 1.0}], settings=ONE).state
+        forces = np.concatenate([state.q, state.p])
+        assert space.resultant(forces) == pytest.approx([0, 0, 1, 0, 0, 0], abs=1e-9)
+        shear = cattaneo.readout.tractions(problem, state.q)
+        assert shear * np.tile(problem.weights, 2) == pytest.approx(state.q) and shear.shape == (50,)
+
+
+def test_rigid_motions_are_handed_over():
+    """The half-space's own matrices with its three motions, sought or stated; one that is missing is named."""
+    problem = cattaneo.HalfSpace(MATERIAL, size=0.2, centres=squares(3, 0.2)).problem(gap=0.0)
+    parts = problem.A, problem.B, problem.C, problem.patterns
+    motions = np.kron(np.eye(3), np.ones((9, 1)))
+    stated = cattaneo.ReducedProblem(*parts, rigid_motions=motions)
+    assert stated.rigid_motions.shape == cattaneo.ReducedProblem(*parts).rigid_motions.shape == (27, 3)
+    with pytest.raises(cattaneo.InputError, match="it states 2 rigid motions, and the stiffness does not resist 3"):
+        cattaneo.ReducedProblem(*parts, rigid_motions=motions[:, :2])
+
+
 def test_a_file_for_paraview(tmp_path):
     """What a reader of VTU finds: quadrilaterals that cover the surface once, and the values of the state."""
-    space = cattaneo.HalfSpace(MATERIAL, size=[0.2, 0.3], centres=[[0.0, 0.0], [0.2, 0.0], [0.2, 0.3]])
+    space = cattaneo.HalfSpace(MATERIAL, size=[0.2, 0.3], centres=[[0.0, 0.0], [0.2, 0.0], [0.2, 0.3]], ends=True)
     problem = space.problem(gap=[0.0, 0.0, 1.0])
     problem.friction = 0.3
     state = cattaneo.march(problem, [{}, {"P": 0.1}, {"Q1": 0.01}], settings=ONE).state

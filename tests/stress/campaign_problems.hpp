@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <cmath>
 #include <cstdint>
@@ -445,6 +447,46 @@ inline const std::vector<FamilyEntry> &families()
                 b.made.problem.gap[i] =
                    b.r.uniform(0.5, 5) * std::pow((i + 0.5) / b.n - 0.5, 2);
        }},
+      {"advancing", 9, 9,
+       [](Builder &b)
+       {
+          // Cells of a rigid body on a half-space, in rows of three: free, coupled, and closing
+          // one after the other.
+          cattaneo::HalfSpace space;
+          space.material = {1, b.r.uniform(0, 0.45)};
+          space.size = {1, b.r.uniform(0.5, 2)};
+          space.centres.resize(b.n, 2);
+          for (int i = 0; i < b.n; ++i) space.centres.row(i) << i / 3, (i % 3) * space.size[1];
+          space.turns = b.c == 2 && b.n > 3 && b.r.chance(0.3);
+          ReducedProblem of;
+          try
+          {
+             of = space.problem(VectorXd::Zero(b.n));
+          }
+          catch (const cattaneo::InputError &)
+          {
+             space.turns = false; // nothing resists it
+             of = space.problem(VectorXd::Zero(b.n));
+          }
+          // In the plane no cell moves along the second tangent.
+          std::vector<Index> rows;
+          for (int a : b.c == 2 ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 2})
+             for (int i = 0; i < b.n; ++i) rows.push_back(a * b.n + i);
+          b.rigid = MatrixXd::Zero(b.size, b.c + 1);
+          for (int i = 0; i < b.size; ++i) b.rigid(i, i / b.n) = 1;
+          if (space.turns)
+          {
+             b.rigid.conservativeResize(Eigen::NoChange, 4);
+             b.rigid.col(3) << -space.centres.col(1), space.centres.col(0), VectorXd::Zero(b.n);
+          }
+          b.stiffness(of.K(rows, rows));
+          b.moderate_friction();
+          const double soft = b.made.problem.C().diagonal().mean(), middle = b.r.uniform(0, 2);
+          for (int i = 0; i < b.n; ++i)
+             b.made.problem.gap[i] = b.r.uniform(0.02, 0.3) / soft *
+                                     (space.centres.row(i).array() - middle).square().sum();
+       },
+       true},
       {"held", 8, 8,
        [](Builder &b)
        {
@@ -491,8 +533,8 @@ inline Case make_case(const FamilyEntry &family, int components, std::uint64_t s
    Case made;
    const int most = components == 1 ? family.nodes_plane : family.nodes_disc;
    int n = r.whole(family.name == "condensed" ? 4 : r.chance(0.15) ? 1 : 2, most);
-   if (family.name == "free" || family.name == "balanced" || family.name == "frictionless" ||
-       family.name == "duplicates")
+   if (family.name == "free" || family.name == "balanced" || family.name == "advancing" ||
+       family.name == "frictionless" || family.name == "duplicates")
       n = std::max(n, 3);
    if (family.name == "hilbert" && components == 2 && r.chance(0.02)) n = r.whole(16, 40);
    Builder b(r, made, n, components);
