@@ -498,6 +498,7 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    record.round_off = 1e-12;
    ReducedProblem problem = four_springs();
    ContactState state = ContactState::virgin(problem);
+   state.dissipation = 8.2;
    record.multipliers = Eigen::Vector2d(0.1, -0.7);
    record.conjugates = Eigen::Vector2d(3.5, -4.5);
    const auto read = [&]
@@ -516,6 +517,7 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
       EXPECT_EQ(table.size(), expected.size());
       for (const auto &[column, value] : expected)
       {
+         // The energy lost by then is the state's, the same in both rows of this test.
          const double second = column == "cycle" ? 20 : value;
          expect_values(numbers(table[column]), {value, second}, column, 0);
       }
@@ -527,6 +529,7 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
                                            {"stick", 3},
                                            {"separation", 4},
                                            {"dissipation", 8.1},
+                                           {"total_dissipation", 8.2},
                                            {"external_work", -9.1},
                                            {"residual_normal", 1e-10},
                                            {"residual_tangential", 1e-11},

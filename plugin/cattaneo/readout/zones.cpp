@@ -14,8 +14,11 @@ using Eigen::VectorXd;
 
 VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 {
-   const Index n = problem.weights.size(), count = nodal_forces.size();
-   require(n > 0 && count % n == 0, "tractions: ", count, " nodal forces for ", n, " weights");
+   const Index n = problem.weights.size(), slips = problem.slips(), count = nodal_forces.size();
+   const bool two = slips == 2 * n && n > 0;
+   require(count == n || (two && count == slips), "tractions: nodal_forces has ", count,
+           " entries, must have ", n, two ? " or " + std::to_string(slips) : "");
+   if (n == 0) { return VectorXd(); } // all interfaces are tied
    const VectorXd weights = problem.weights.replicate(count / n, 1);
    return (weights.array() > 0)
       .select(nodal_forces.cwiseQuotient(weights), VectorXd::Zero(count));
