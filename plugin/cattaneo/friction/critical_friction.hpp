@@ -53,7 +53,8 @@ struct CriticalFriction
 /// motions, some ten Cholesky factors of half its size.
 CriticalFriction critical_friction(const ReducedProblem &problem);
 
-/// Can the contact lock itself with the friction it has, the largest everywhere?
+/// Can the contact lock itself with the friction it has, the largest everywhere? This tells of
+/// the problem, not of a state: nothing has to have locked.
 bool can_lock(const ReducedProblem &problem);
 
 } // namespace cattaneo

@@ -265,9 +265,10 @@ Mechanism motion_of(const VectorXd &bears, const std::vector<NodeState> &states,
    return mechanism;
 }
 
-/// Holds the rigid motions by weak springs, ever weaker ones, each fixed where the one before
-/// let the bodies go. Where the force that they bear stays the same a body moves on and on.
-/// Else what they hold is close to an answer without them, or, where they bear nothing, is one
+/// Holds the rigid motions by weak springs, ever weaker ones, each unstretched where the one
+/// before let the bodies go. Where the last three bear the same force and a body slides at a
+/// closed node, it moves on and on (if springs can tell). Else the place where they hold the
+/// bodies is close to an answer without them, or, where they bear nothing, is one
 /// (a pivot, balanced so that only round-off would decide which way it leans, stays where it
 /// is).
 OnSprings put_on_springs(Increment &at)
@@ -304,7 +305,7 @@ OnSprings put_on_springs(Increment &at)
          borne.resize(0);
          continue;
       }
-      // 2. The next springs are fixed where these have let the bodies go.
+      // 2. The next springs are unstretched where these have let the bodies go.
       ContactState &next = of_sprung.next;
       if (!sprung.frictionless()) { of_sprung.fit_states(next); }
       const VectorXd moved = next.displacements() - anchor;

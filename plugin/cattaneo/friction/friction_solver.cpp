@@ -51,7 +51,7 @@ const std::vector<Method> in_the_plane = {
    // themselves, and free bodies.
    {"Lemke", lemke, false},
    springs,
-   // A few of the same families, of which the ways from the start end in rays.
+   // A few of the same families, where all departures from the start fail.
    {"Lemke", lemke_from_afar, true}};
 
 /// With two tangents:
@@ -183,7 +183,7 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
    bool solved = !at.finds_mechanism();
    // 2. The methods, one after the other.
    solved = solved && find_end(at);
-   // 3. A body that slides away may look like an answer.
+   // 3. A body that slides away may look like an answer, also to the judge.
    solved = solved && !runs_away(at);
    // 4. Free bodies that nothing moves. (Where a law bends, pressures that were found may prove
    // that there is no equilibrium.)

@@ -30,9 +30,13 @@ const char *name(FrictionStatus status);
 /// How an increment is solved.
 enum class FrictionMethod
 {
-   automatic,   ///< Newton's steps on node states after a few Gauss–Seidel sweeps; if these
-                ///< fail Lemke's method, and weak springs on the rigid motions of free bodies;
-                ///< with two tangential components damped Newton from several starts
+   automatic,   ///< One method after the other, as docs/increments.md tells. With one
+                ///< tangential component or none: Newton's steps on node states after a few
+                ///< Gauss–Seidel sweeps, Lemke's method, weak springs on the rigid motions of
+                ///< free bodies, and Lemke's method from random places. With two: Newton's
+                ///< steps without and with sweeps, weak springs, and damped Newton from several
+                ///< starts, also random ones. At last free bodies may stay where springs that
+                ///< bear nothing have them.
    gauss_seidel ///< node by node only (thesis 3.5, appendix D)
 };
 
@@ -61,10 +65,12 @@ struct IncrementReport
 {
    FrictionStatus status =
       FrictionStatus::stalled; ///< a solution was found if converged or not_unique
-   std::string message;        ///< empty if converged
-   /// Largest violation of the equations as given and of the laws by the state that is
-   /// returned, over the largest force so far, as it is found in double precision: the true one
-   /// is larger by the round-off at most.
+   std::string message; ///< empty if converged; docs/increments.md says where each comes from
+   /// If a solution was found: the largest violation by it of the equations as given and of the
+   /// laws, over the largest force so far, as it is found in double precision. The true one is
+   /// larger by the round-off at most. If none was found no state is returned, and these belong
+   /// to a place where the search has been: with the message that names them, to where it
+   /// ended, as a measure of the way that was left (the natural map).
    double residual_normal = 0;     ///< of normal displacements and forces
    double residual_tangential = 0; ///< of slip and friction forces
    double round_off = 0;           ///< estimate of what arithmetic can reach, relative

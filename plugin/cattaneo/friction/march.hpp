@@ -21,10 +21,11 @@ enum class Stepping
    fixed,
    /** From one change of state to the next, exactly. The increments are stops: the states
        there are recorded, whatever number of changes lies between. Pieces that one increment
-       solves exactly take that one. Where rates have no answer, an increment is taken instead,
-       to the next stop or to where a node closes first: counted, with the reason, in the
-       report. A state that is no equilibrium (an initial slip, an interference) is brought to
-      equilibrium by an increment first.
+       solves exactly take that one. Where the path does not go on the march ends, if there is
+       no equilibrium beyond. Else an increment is made instead, to the next stop or to where a
+       node closes first: counted, with the reason, in the report. A state that is no
+       equilibrium (an initial slip, an interference) is brought to equilibrium by an increment
+       first.
 
        With two tangential components there is no such path, and FrictionMethod::gauss_seidel
        knows none. Equal increments are taken, halved while contact advances by more than one
@@ -42,8 +43,8 @@ struct MarchSettings
    Stepping stepping = Stepping::exact;   ///< how their ends are reached
    bool single_increment_if_exact = true; ///< false: cut even where one increment is exact
    /// Events of an exact path end the increments, in place of stops: the observer and the
-   /// report have their states, and MarchReport::changes lists the changes. Else they are only
-   /// counted.
+   /// report have their states, and MarchReport::changes lists the changes with which the next
+   /// steps set out. Else they are only counted.
    bool every_event = false;
    int max_halvings = 12;            ///< of an increment, for advancing contact or failure
    bool stop_at_steady_state = true; ///< the cycles that are left would be the same
@@ -93,8 +94,11 @@ struct IncrementRecord
    /// A march taken up from the state here goes on to the last bit. False amid an exact path:
    /// to round-off.
    bool resumes = true;
-   /// Node at whose change of state the increment ends, see MarchSettings::every_event: its
-   /// loads are the answer's. -1: they are those of the history.
+   /// Node that comes to the boundary of its state, or to a bend of its law, where the
+   /// increment ends, see MarchSettings::every_event. In the state of this row it still has its
+   /// old state; the next step sets out with the new one. The loads are those at which it comes
+   /// there. -1: there is no such node, and the loads are those of the history at the row's
+   /// time.
    Eigen::Index event = -1;
 };
 
@@ -140,24 +144,30 @@ struct MarchReport
    FrictionStatus status = FrictionStatus::converged; ///< of the whole march
    std::string message;                               ///< one sentence, empty if converged
    double time = 0;                                   ///< reached
-   /// Where the outcome is not `converged`: time and load multipliers at which it came about,
-   /// the last equilibrium found, by bisection. The state is the last one whose forces are
-   /// known to 1e-9. `not_unique` does not end a march: these are then the ones of
-   /// `not_unique`. `stopped`: time and multipliers of the state.
+   /// Where the outcome is not `converged`: time and load multipliers at which it came about.
+   /// An exact path that ends has them exactly, at the event after which it does not go on; the
+   /// state is that event's. After an increment that failed they are those of the last
+   /// equilibrium, found by bisection; the state is the last one whose forces are known to
+   /// 1e-9. A first proportional loading without a gap has none, and they are those of its
+   /// start. `not_unique` does not end a march: they are then the ones of `not_unique`.
+   /// `stopped`: time and multipliers of the state.
    double event_time = 0;
    Eigen::VectorXd event_multipliers;   ///< in the order of the patterns
    std::optional<NotUnique> not_unique; ///< also where the march ended later for another reason
    std::vector<IncrementRecord> increments; ///< see MarchSettings::keep_increments
    std::vector<CycleRecord> cycles;         ///< of those that were marched
-   /// Stepping::exact: changes of state of nodes, of increments that were taken instead the
+   /// Stepping::exact with one tangential component or none: how many changes of state of
+   /// nodes there were. Of an increment that was taken instead of the path they are the
    /// differences of the states at both ends.
    long events = 0;
-   /// With MarchSettings::every_event the list of them, in the order of the path. A piece that
-   /// took one increment lists its changes at its start.
+   /// With MarchSettings::every_event the list of them, in the order of the path. A step lists
+   /// the changes with which it sets out. No step follows the event at which a march ends, so
+   /// that its change is not among them. A piece that took one increment lists its changes at
+   /// its start.
    std::vector<StateChange> changes;
-   int fallbacks = 0;           ///< increments taken because there was no exact path to follow
-   std::string fallback_reason; ///< of the first of them
-   int stalled = 0;             ///< increments that the solver did not finish, passed by others
+   int fallbacks = 0;           ///< increments made where the exact path did not go on
+   std::string fallback_reason; ///< of the first of them, a sentence of docs/increments.md
+   int stalled = 0;             ///< increments that the solver did not finish, and were halved
    int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
    int steady_period = 0;       ///< 1 or 2
    /// The error of the loss by friction, with MarchSettings::loss_error.
@@ -170,12 +180,13 @@ struct MarchReport
    /// increments, and goes to zero faster than the error of the loss: see `loss_error` for
    /// that.
    double energy_imbalance = 0;
-   /// Friction forces depend on how a contact that advances is cut into increments, since
-   /// friction acts on a node from the beginning of the increment in which it closes: four
-   /// times the largest change of a friction force in an increment in which a node closed, over
-   /// the largest force. (A rule: all of the change may be wrong, at the node that closed and
-   /// at those that it makes slip or stick.) It goes to zero with the increments, and is 0
-   /// where the exact path was followed while nodes closed, see Stepping.
+   /// Error of friction forces where contact advances. They depend on how the loads are cut
+   /// into increments, since friction acts on a node from the beginning of the increment in
+   /// which it closes. This is four times the largest change of a friction force in an
+   /// increment in which a node closed, over the largest force. It is a rule: all of the change
+   /// may be wrong, at the node that closed and at those that it makes slip or stick. It goes
+   /// to zero with the increments, and is 0 where the exact path was followed while nodes
+   /// closed, see Stepping.
    double advance_error = 0;
    /// Ends of lines at which contact was cut off, each with the first accepted state in which
    /// it was so: the results are those of a line that was named too short.

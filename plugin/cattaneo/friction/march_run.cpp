@@ -182,8 +182,8 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
    record_.report.event_multipliers = piece_.multipliers(reached);
 }
 
-/// One increment towards `target`, a shorter one where contact would advance too far or the
-/// solver does not finish; `exact` ones are not cut.
+/// One increment towards `target`, a shorter one where the solver stalls, or where contact
+/// would advance too far; for the latter an `exact` one is not cut.
 bool MarchRun::step_by_increment(double target, bool exact)
 {
    const double whole = target - state_.time,
@@ -328,8 +328,8 @@ void MarchRun::note(const std::vector<StateChange> &changes)
    report.changes.insert(report.changes.end(), changes.begin(), changes.end());
 }
 
-/// No rates are an answer if there is no equilibrium at any load beyond; this load is then the
-/// exact one.
+/// The path does not go on: is there no equilibrium beyond? This load is then the exact one at
+/// which equilibria end, and the march stops at it.
 bool MarchRun::equilibria_end()
 {
    const double beyond = state_.time + 1e-6 * piece_.duration();

@@ -38,12 +38,16 @@ struct ComplementarityReport
    Eigen::VectorXd x, F;
 };
 
-/** Semismooth Newton steps on node states, as increments and rates share them: `solve` finds
-   the solution of the linear equations that the states stand for, `ask` gives the nodes the
-   states, and the pieces of their bounds, that this asks for and says how many changed;
-   `choices` are these as numbers. True where none changes any more; false where they come back
-   to ones that were tried, where the equations are singular, after max_steps, or where `few`
-   nodes or fewer go on changing. */
+/** Semismooth Newton steps on node states, as increments and rates share them.
+
+    `solve` finds the solution of the linear equations that the states stand for; false if these
+    are singular. `ask` gives each node the state, and the piece of its bound, that the solution
+    asks for, and says how many nodes have changed. `choices` are these states and pieces as
+    numbers.
+
+    True where no node changes any more. False where the equations are singular, where choices
+    come back that were tried before, after max_steps, or where `few` nodes or fewer go on
+    changing and do not become fewer. */
 bool newton_on_states(const std::function<std::vector<double>()> &choices, int max_steps,
                       Eigen::Index few, const std::function<bool()> &solve,
                       const std::function<Eigen::Index()> &ask);
@@ -54,15 +58,23 @@ ComplementarityReport solve_by_newton(StateEquations &equations,
                                       const ComplementarityProblem &problem, int max_steps,
                                       ComplementarityReport start = {});
 
-/** Lemke's method [Lemke 1965] with a free start: from displacements and forces that meet all
-    laws with the present states of `equations` at some other b, follows the solutions while b
-    is moved to the problem's, exchanging the state of one node, or the piece of its bound, at a
-    time; on this way b may turn back. x and F are the wish for the start (the solution of a
-    neighbouring problem, say); they are moved into the inside of all inequalities by the random
-    fraction `slack` of the largest force, so that no two nodes exchange at once. On the way a
-    node may bear a little shear beyond f p, in separation too, that vanishes at the end: slip,
-    stick, opening and closing are then one exchange each. It may end in a ray, above critical
-    friction for instance: another start may do better. */
+/** Lemke's method [Lemke 1965] with a free start.
+
+    The start: x and F are what the caller wishes, as the solution of a neighbouring problem.
+    They are moved into the inside of all inequalities of the present states of `equations`, by
+    random amounts of the size `slack` times the largest force, so that no two nodes exchange at
+    once. They are then a solution at some other b.
+
+    The way: b is moved to the problem's, and the solution follows. Where an inequality of a
+    node becomes an equation the node exchanges its state, or the piece of its bound. After an
+    exchange b may have to go back for a while. On the way a node may bear a little shear beyond
+    f p, in separation too, which vanishes at the end: slip, stick, opening and closing are then
+    one exchange each.
+
+    Not solved if the way ends in a ray, on which no node exchanges any more (above critical
+    friction, for instance), if the equations are singular at the start or after an exchange,
+    and if 20 n + 100 exchanges have not led to a solution that meets all inequalities. Another
+    start may do better. */
 ComplementarityReport solve_by_lemke(StateEquations &equations,
                                      const ComplementarityProblem &problem,
                                      const Eigen::VectorXd &x, const Eigen::VectorXd &F,

@@ -46,8 +46,7 @@ public:
 
    /** Advances `state` as far as the next event or the stop, and appends the changes of state
        with which it set out. A stop is no event: the rates and the factor go on over it.
-       False, with the state unchanged, if no rates meet the laws (see failure()): the loads
-       cannot rise further, or not slowly. */
+       False, with the state unchanged, if it does not go on; failure() says why. */
    bool advance(ContactState &state, const PathWay &way, std::vector<StateChange> &changes);
 
    /// Node that met the boundary of its state where the last advance() ended; -1: none did.
@@ -55,11 +54,14 @@ public:
    /// How well the slips of the last advance() are known, one for each node: round-off of the
    /// state before, times what the conditioning of the equations makes of it.
    const Eigen::VectorXd &slip_error() const { return last_.slip_error; }
+   /// Why the last advance() failed, in a sentence (see docs/increments.md).
    const std::string &failure() const { return last_.failure; }
    /// The method that found the rates of the last advance(), as a march records it.
    const char *found_by() const { return last_.found_by; }
-   /// The last advance() failed since no rates meet the laws, with equations that can be
-   /// solved.
+   /// Did the last advance() fail because no rates meet the laws, although the equations of the
+   /// states could be solved? Then equilibria may end here. A march takes this for their end,
+   /// if increments beyond, by a little and to the next stop, both stall. Other failures tell
+   /// nothing about equilibria: there a stall leads to an increment in place of the path.
    bool ended() const { return last_.ended; }
    const Counters &counters() const { return counters_; }
 

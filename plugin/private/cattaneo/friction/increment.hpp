@@ -10,7 +10,9 @@ namespace cattaneo
 /// What weak springs on the rigid motions of free bodies came to.
 struct OnSprings
 {
-   Mechanism away; ///< a motion that no spring stops, or that friction hides from them
+   /// The motion of a body that slides away, which no spring stops, or of one that spins, which
+   /// friction in the disc can hide from springs (find_spinning()).
+   Mechanism away;
    std::optional<ContactState> state; ///< with the weakest spring that stopped the bodies
    bool bear_nothing = false;         ///< that spring bears nothing: the state is an answer
 };
@@ -48,7 +50,8 @@ struct Increment
    std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
    VectorXd piece; // plane, bounds that bend: a pressure on the piece that each node is on
    double reference = 0; // largest force so far, the scale of residuals
-   // Where the last sweeps ended, from which every method sets out.
+   // Where the last sweeps ended; without sweeps the start. Further sweeps set out from there,
+   // and the first try of damped Newton. All others depart from the start of the increment.
    Place swept;
 
    IncrementReport report;
@@ -78,13 +81,15 @@ struct Increment
    /// Gives the nodes of an accepted end states that fit how they slip and what they bear.
    void fit_states(ContactState &next) const;
    /// Is the state where it stands the end of the increment? By the equations and the laws as
-   /// they are given (FrictionSystem::obeys_laws()), which is the only judgement of a state.
+   /// they are given (FrictionSystem::obeys_laws()). No state is accepted without this. One of
+   /// free bodies that passes may still be discarded, where round-off may hide that they move
+   /// away (FrictionSystem::solve(), lemke_from_afar(), damped_newton()).
    bool ends_here();
    /// Fills the report with what the natural map leaves where it stands: a measure of the way
    /// that is left. True if that may be small enough for ends_here(), which asks for more.
    bool residuals();
-   /// True if no admissible contact forces can balance the loads: there is nothing to search
-   /// for.
+   /// True if no admissible contact forces can balance the loads: there is no equilibrium. It
+   /// is Cause::mechanism then.
    bool finds_mechanism();
 };
 

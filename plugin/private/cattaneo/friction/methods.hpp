@@ -11,7 +11,7 @@ enum class Search
 {
    found,    ///< the increment stands there, with its report
    not_here, ///< another method may find it
-   hopeless  ///< there is nothing to search for
+   hopeless  ///< no further method is tried: weak springs bear nothing, and rest is left
 };
 
 /// One pass over all nodes, each solved exactly with the others fixed (thesis 3.5, appendix D).
@@ -24,7 +24,7 @@ Search gauss_seidel(Increment &at);
 Search active_set(Increment &at);
 /// From the present states alone.
 bool newton(Increment &at);
-/// From where so many sweeps lead, from where the last ones ended.
+/// After so many sweeps, which begin where the last ones ended.
 bool newton_after_sweeps(Increment &at, int sweeps);
 /// Takes the states that the present displacements and forces ask for, with one tangent or
 /// none. @return how many nodes changed theirs
@@ -32,22 +32,27 @@ Eigen::Index ask_for_states(Increment &at);
 /// newton() from a point that may be an answer itself, but for round-off.
 bool polished(Increment &at);
 
-/// Plane: follows solutions from elsewhere to the one sought, one node's state at a time; from
-/// the start of the increment, or from random places.
+/// Plane: follows solutions from elsewhere to the one sought, one node's state at a time. Eight
+/// departures from the start of the increment; or departures from random places about it.
 Search lemke(Increment &at);
 Search lemke_from_afar(Increment &at);
 
 /// Two tangents: Newton from the start itself, then after sweeps, more before each attempt.
 Search active_set_in_the_disc(Increment &at);
-/// Two tangents: Newton's method on the natural map with a line search, from several starts.
+/// Two tangents: Newton's method on the natural map with a line search, from where the sweeps
+/// ended, from the start of the increment, and from random places about it.
 Search damped_newton(Increment &at);
 
-/// By the quick methods alone, which suffice where something holds the bodies.
+/// By the methods before the weak springs alone, which suffice where something holds the
+/// bodies.
 bool find_end_quickly(Increment &at);
 
-/// From what weak springs hold to an answer without them.
+/// Newton's steps without springs from where the weakest springs hold the bodies. Hopeless if
+/// these fail and the springs bear nothing: then the place itself may be an answer (rest).
 Search weak_springs(Increment &at);
-/// Does a body drift or spin away, so that there is no equilibrium? Found once an increment.
+/// Does a body drift or spin away, as weak springs tell? Asked once an increment. If no end is
+/// found this is the cause. An end that is found all the same counts, unless round-off may hide
+/// the motion (runs_away()).
 bool moves_away(Increment &at);
 
 /// Is it the end of the increment where it stands? A body that slips wherever it touches could

@@ -23,10 +23,17 @@ namespace cattaneo
 
     A stiffness of n rows for n nodes has no tangential unknowns (no friction anywhere).
 
-    The equations M₀ of the states that were factored last are bordered by those that have
-    changed since, M₀ x + P z = r₀, Q x + D z = r₁: an unknown that is gone gets x = 0 for an
-    equation and its force for a z, one that is new is a z, an equation that is another gets
-    both. M₀⁻¹ P is kept for the life of M₀. */
+    M₀ is the matrix of the states that were factored last. Where states have changed since,
+    rows and columns are added to it (a border): M₀ x + P z = r₀, Q x + D z = r₁. There are
+    three kinds.
+
+    * An unknown is no longer one, as where a node begins to stick: the new row says x = 0, the
+      new z is the force that its old equation leaves.
+    * An unknown is new: it is the new z, and the new row is its equation.
+    * An unknown has another equation, as where slip turns round: the new row is that equation,
+      the new z the force that the old one leaves.
+
+    M₀⁻¹ P is kept as long as M₀. */
 class StateEquations
 {
 public:
