@@ -698,7 +698,7 @@ TEST(FromContact, TractionsOfAnEdgeNeedItsPlaces)
    refused("the edge is of nodes 0 to 2, must be of 0 to 1");
    edge.last = 1;
    state.q.resize(0);
-   refused("0 nodal forces");
+   refused("nodal_forces has 0 entries, must have 2");
 }
 
 // --- corners
