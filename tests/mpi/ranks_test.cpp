@@ -42,10 +42,21 @@ void expect_equal(const json &a, const json &b, double tolerance, const std::str
             continue;
          }
          ASSERT_TRUE(b.contains(key)) << path << "/" << key;
-         // Tangential forces may cancel: the normal force is the scale of both.
-         const bool shear = key == "tangential" && value.is_number() && a.contains("normal");
-         expect_equal(value, b[key], tolerance, path + "/" + key,
-                      shear ? std::abs(a["normal"].get<double>()) : 0.0);
+         // What may cancel is measured by what it is a part of: tangential forces by the normal
+         // one, components and moments of a force by that force (lengths are about 1 here).
+         const auto size = [&](const char *x, const char *y)
+         { return std::hypot(a[x].get<double>(), a[y].get<double>()); };
+         double whole = 0;
+         if (key == "tangential" && value.is_number() && a.contains("normal"))
+         {
+            whole = std::abs(a["normal"].get<double>());
+         }
+         if (value.is_number() && a.contains("force_x") && a["force_x"].is_number())
+         {
+            if (has(key, {"force_", "moment"})) { whole = size("force_x", "force_y"); }
+            if (has(key, {"about_"})) { whole = std::max(1.0, size("about_x", "about_y")); }
+         }
+         expect_equal(value, b[key], tolerance, path + "/" + key, whole);
       }
    }
    else if (a.is_array())
