@@ -172,9 +172,13 @@ private:
       Violation wrong;
       const Violation v = laws_->judge(u, u_, state, &wrong);
       const double worst = v.size / scale;
+      // An answer without any force, before or after, states its accuracy in the problem's own
+      // unit: there is no largest force.
+      const bool forceless =
+         state_.peak_force == 0 && laws_->loads(state.multipliers).isZero(Real(0));
       const Real leave =
-         std::max(Real(1e-9) * scale,
-                  Real(may_break(answer, double(laws_->f.maxCoeff())) * state.peak_force));
+         std::max(Real(1e-9) * scale, Real(may_break(answer, double(laws_->f.maxCoeff())) *
+                                           (forceless ? 1.0 : state.peak_force)));
       char text[200];
       std::snprintf(text, sizeof text, "%s at node %d, t %.6g, stated %.1e", v.law, int(v.node),
                     state.time, accuracy);

@@ -130,8 +130,9 @@ public:
       return worst;
    }
 
-   /// What round-off can leave in the forces at a state: the condition of its active equations
-   /// and the size of the sums K u + f over the forces.
+   /// What round-off can leave in the forces at a state: the condition of its active equations,
+   /// the size of the sums K u + f over the forces, and with two tangents the direction of a
+   /// slip, which is the difference of two displacements of that size.
    Real round_off(const Vector &u, const Vector &before, const ContactState &s,
                   Real scale) const
    {
@@ -139,7 +140,7 @@ public:
       const Vector sums = K.cwiseAbs() * u.cwiseAbs() + loads(s.multipliers).cwiseAbs();
       const Vector unit = K.diagonal().cwiseSqrt().cwiseInverse();
       const Matrix S = unit.asDiagonal() * K * unit.asDiagonal();
-      std::vector<Index> row, column;
+      Real turned = 0; // friction forces, by directions of slip that round-off turns
       Matrix M = Matrix::Identity(K.rows(), K.rows());
       for (Index i = 0; i < n; ++i)
       {
@@ -151,6 +152,11 @@ public:
          for (Index a = 0; a < c; ++a)
             way = std::hypot(way, direction[a] = u[a * n + i] - before[a * n + i]);
          if (way > 0) direction /= way;
+         for (Index a = 0; a < c && c == 2 && way > 0; ++a)
+         {
+            const Real known_to = 4 * eps * std::abs(u[a * n + i]);
+            turned = std::max(turned, f[i] * std::abs(Real(s.p[i])) * known_to / way);
+         }
          const bool pressed = s.status[i] != NodeState::separation;
          for (Index a = 0; a < c; ++a)
          {
@@ -170,7 +176,7 @@ public:
       const Real condition = M.cwiseAbs().rowwise().sum().maxCoeff() *
                              inverse.cwiseAbs().rowwise().sum().maxCoeff();
       if (!std::isfinite(condition)) return INFINITY;
-      return eps * (condition + largest(sums) / scale);
+      return eps * (condition + largest(sums) / scale) + turned / scale;
    }
 };
 
