@@ -68,13 +68,11 @@ TEST(HalfSpaceStages, OneRectangleOfAThousand)
    ReducedProblem problem = cattaneo_test::kalkers_spence(3.75);
    ASSERT_EQ(problem.nodes(), 1101);
    ContactState state = ContactState::virgin(problem);
-   FrictionSolver solver(problem);
-   Eigen::VectorXd loads = Eigen::VectorXd::Zero(3);
-   loads[problem.pattern("P")] = 1.1e-5;
-   ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged);
+   const MarchReport report = cattaneo_test::marched(problem, {{}, {{"P", 1.1e-5}}}, state);
+   ASSERT_EQ(report.status, FrictionStatus::converged);
    EXPECT_EQ(number_closed(state), 1);
    EXPECT_NEAR(state.p.sum(), 1.1e-5, 1e-12);
-   EXPECT_LE(solver.counters().dense_factorisations, 20);
+   EXPECT_LE(report.counters.dense_factorisations, 20);
 }
 
 /// A rigid punch of 545 squares under shear around a circle: proven bounds within 1e-4.
