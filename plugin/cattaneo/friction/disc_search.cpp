@@ -141,13 +141,7 @@ Search damped_newton(Increment &at)
             at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
          }
       }
-      // From afar a free body that slides away looks like an answer: round-off hides what
-      // drives it.
-      if (polished(at) &&
-          (s.problem.rigid_motions.cols() == 0 || at.report.round_off <= may_hide_sliding))
-      {
-         return Search::found;
-      }
+      if (polished(at) && !may_slide(at)) { return Search::found; }
    }
    return Search::not_here;
 }

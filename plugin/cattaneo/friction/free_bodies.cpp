@@ -398,6 +398,13 @@ MatrixXd free_motions(const ReducedProblem &problem, const std::vector<NodeState
    return resisting.empty() ? MatrixXd(Z.rows(), 0) : at_rest(Z, Z(resisting, Eigen::all));
 }
 
+bool may_slide(const Increment &at)
+{
+   const ReducedProblem &problem = at.system.problem;
+   return problem.rigid_motions.cols() > 0 && at.report.round_off > may_hide_sliding &&
+          free_motions(problem, at.status).cols() > 0;
+}
+
 namespace
 {
 

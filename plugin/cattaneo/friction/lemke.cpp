@@ -96,24 +96,30 @@ Search lemke_from_afar(Increment &at)
    // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
    const double operations = moves_away(at) ? 1e8 : 1e9;
    const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();
-   constexpr int most = 200;
+   constexpr int most = 500;
+   const NodeState any[] = {NodeState::stick, NodeState::separation, NodeState::forward_slip,
+                            NodeState::backward_slip};
    std::mt19937_64 random(1);
    const auto some = [&] { return std::ldexp(double(random() >> 11), -52) - 1; };
    Starts starts(at);
    for (int k = 0; k < most && starts.operations() < operations; ++k)
    {
-      // 1. Displacements, and the states in which the natural map takes them.
-      const double size = std::pow(10, -2 + 4.0 * k / most);
+      // 1. Displacements. A free body that hangs on one node alone has gone as far as a lever
+      // is short.
+      const double size = std::pow(10, -2 + 8.0 * k / most);
       VectorXd u = at.start.displacements();
       for (Index row = 0; row < u.size(); ++row) { u[row] += size * far[row] * some(); }
       at.move_to(u, at.start.status);
+      // 2. The states in which the natural map takes them; every other time any states, as
+      // there are solutions to which the first kind of departure hardly ever leads.
       std::vector<NodeState> states(s.n);
-      for (Index i = 0; i < s.n; ++i) { states[i] = natural_state(at.node(i)); }
-      // 2. A solution; from afar a free body that slides away looks like one: round-off hides
-      // what drives it.
+      for (Index i = 0; i < s.n; ++i)
+      {
+         states[i] = k % 2 == 0 ? natural_state(at.node(i)) : any[random() % 4];
+      }
+      // 3. A solution.
       const double slack = std::pow(10, 0.5 * (k % 5) - 1.5);
-      if (starts.from(at.u, at.F, std::move(states), slack) &&
-          (s.problem.rigid_motions.cols() == 0 || at.report.round_off <= may_hide_sliding))
+      if (starts.from(at.u, at.F, std::move(states), slack) && !may_slide(at))
       {
          return Search::found;
       }

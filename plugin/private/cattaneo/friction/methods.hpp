@@ -55,6 +55,11 @@ Search weak_springs(Increment &at);
 /// the motion (runs_away()).
 bool moves_away(Increment &at);
 
+/// Of an answer that was found from afar: may it be a free body that slides away? Round-off of
+/// so large displacements hides what drives such a body. That cannot be where the nodes that
+/// touch or stick hold all bodies.
+bool may_slide(const Increment &at);
+
 /// Is it the end of the increment where it stands? A body that slips wherever it touches could
 /// slip on as it is, with the same forces: it is moved before to where it has moved the least.
 bool ends_with_least_motion(Increment &at);
