@@ -9,6 +9,11 @@ small dense problem that is left Coulomb's law is satisfied to round-off:
     problem.friction = 0.3
     report = cattaneo.march(problem, [{}, {"P": 1}, {"Q": 0.2}])
 
+Arguments that many functions have: `problem`, a ReducedProblem; `state`, a ContactState of it (None: before any
+load); `settings`, the struct that is named in the signature, whose members go by their names as well; `progress`, True
+for a line on stderr, or a function of a Progress; `stop`, a threading.Event that ends long work; `file`, a name or
+path.
+
 Names are those of the C++ library; docs/python.md is the guide.
 """
 
@@ -35,6 +40,7 @@ from ._core import (
     Heights as Heights,
     InputError as InputError,
     Interface as Interface,
+    InterfaceMarch as InterfaceMarch,
     InterfaceReport as InterfaceReport,
     LoadHistory as LoadHistory,
     LoadPattern as LoadPattern,
@@ -80,6 +86,8 @@ from ._core import (
 )
 
 from . import _core, _repr
+from ._case import Case as Case, case as case
+from ._compliance import from_compliance as from_compliance
 from . import _pickle as _pickle  # teaches pickle, and with it multiprocessing, problems and states
 
 _repr.teach(_core)

@@ -14,42 +14,27 @@ def _pyplot():
 
 
 def march(report, axes=None):
-    """Tractions and slip at the end of a march, and the loops of the loads that vary.
+    """Tractions and slip at the end of a march, of each interface, and the loops of the loads that vary.
 
     axes: as many as there are figures, from left to right, or None for new ones. Returns them."""
     problem, state = report.problem, report.state
     loops = [name for name, load in report.multipliers.items() if len(load) > 1 and np.ptp(load) > 0]
-    count = 2 + len(loops)
+    # Reports that are made of states alone have none: all nodes are drawn together.
+    faces = {name: each.nodes for name, each in report.interfaces.items()} or {"": np.arange(problem.nodes)}
+    count = 2 * len(faces) + len(loops)
     if axes is None:
         _, axes = _pyplot().subplots(1, count, figsize=(4.5 * count, 3.6), layout="constrained")
     axes = np.ravel(axes)
     if len(axes) != count:
-        raise ValueError(f"axes are {len(axes)}, must be {count}: tractions, slip, and a loop each of {loops}")
-    lies = len(problem.arc_length) == problem.nodes
-    x = problem.arc_length if lies else np.arange(problem.nodes)
-    tractions = len(problem.weights) == problem.nodes
-    weights = problem.weights if tractions else np.ones(problem.nodes)
-    order = np.argsort(x, kind="stable")
-
-    def draw(axis, values, label, style):
-        axis.plot(x[order], values[order], style, label=label, markersize=3)
-
-    draw(axes[0], state.p / weights, "p", "k.-")
-    for c in range(problem.components):
-        q = state.q[c * problem.nodes : (c + 1) * problem.nodes]
-        draw(axes[0], q / weights, "q" if problem.components == 1 else f"q{c + 1}", ("C0.-", "C1.-")[c])
-        v = state.v[c * problem.nodes : (c + 1) * problem.nodes]
-        draw(axes[1], v, "slip v" if problem.components == 1 else f"slip v{c + 1}", ("C0.-", "C1.-")[c])
-    if problem.components > 0:
-        draw(axes[0], problem.friction * state.p / weights, "f p", "k:")
-    draw(axes[1], state.w + problem.gap, "opening w + g", "k.-")
-    axes[0].set_ylabel("traction" if tractions else "nodal force")
-    axes[1].set_ylabel("relative displacement")
-    for axis in axes[:2]:
-        axis.set_xlabel("arc length" if lies else "node")
-        axis.legend()
+        of_each = "tractions, slip, " if len(faces) == 1 else f"tractions and slip of each of {list(faces)}, "
+        raise ValueError(f"axes are {len(axes)}, must be {count}: {of_each}and a loop each of {loops}")
+    for k, (name, nodes) in enumerate(faces.items()):
+        _interface(axes[2 * k : 2 * k + 2], problem, state, nodes)
+        if len(faces) > 1:
+            axes[2 * k].set_title(name)
+            axes[2 * k + 1].set_title(name)
     controls = {pattern.name: pattern.control for pattern in problem.patterns}
-    for axis, name in zip(axes[2:], loops):
+    for axis, name in zip(axes[2 * len(faces) :], loops):
         load, conjugate = report.multipliers[name], report.conjugates[name]
         if controls[name] == "force":
             axis.plot(conjugate, load, ".-", markersize=3)
@@ -58,3 +43,30 @@ def march(report, axes=None):
             axis.plot(load, conjugate, ".-", markersize=3)
             axis.set(xlabel=name, ylabel=f"reaction of {name}")
     return axes
+
+
+def _interface(axes, problem, state, nodes):
+    """Tractions and slip of some nodes, along their line."""
+    lies = len(problem.arc_length) == problem.nodes
+    x = problem.arc_length[nodes] if lies else nodes
+    tractions = len(problem.weights) == problem.nodes
+    weights = problem.weights[nodes] if tractions else np.ones(len(nodes))
+    order = np.argsort(x, kind="stable")
+
+    def draw(axis, values, label, style):
+        axis.plot(x[order], values[order], style, label=label, markersize=3)
+
+    draw(axes[0], state.p[nodes] / weights, "p", "k.-")
+    for c in range(problem.components):
+        own = nodes + c * problem.nodes
+        alone = problem.components == 1
+        draw(axes[0], state.q[own] / weights, "q" if alone else f"q{c + 1}", ("C0.-", "C1.-")[c])
+        draw(axes[1], state.v[own], "slip v" if alone else f"slip v{c + 1}", ("C0.-", "C1.-")[c])
+    if problem.components > 0:
+        draw(axes[0], problem.friction[nodes] * state.p[nodes] / weights, "f p", "k:")
+    draw(axes[1], state.w[nodes] + problem.gap[nodes], "opening w + g", "k.-")
+    axes[0].set_ylabel("traction" if tractions else "nodal force")
+    axes[1].set_ylabel("relative displacement")
+    for axis in axes:
+        axis.set_xlabel("arc length" if lies else "node")
+        axis.legend()

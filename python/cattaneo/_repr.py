@@ -1,4 +1,5 @@
-"""What objects say of themselves that have no words of their own: their values, and the sizes of their arrays."""
+"""What objects say of themselves that have no words of their own: their values, and the sizes of their arrays; and
+what notebooks show of all of them."""
 
 import inspect
 from types import ModuleType
@@ -26,10 +27,21 @@ def _repr(self: Any) -> str:
     return f"<cattaneo {type(self).__name__}{': ' if said else ''}{', '.join(said)}>"
 
 
+def _html(self: Any) -> str:
+    from . import _html
+
+    shown: str = _html.of_march(self) if type(self).__name__ == "MarchReport" else _html.of_any(self)
+    return shown
+
+
 def teach(module: ModuleType) -> None:
-    """All classes of a module and of its submodules that print an address otherwise."""
+    """All classes of a module and of its submodules: words for those that print an address otherwise, and what a
+    notebook shows."""
     for each in vars(module).values():
-        if inspect.isclass(each) and each.__repr__ is object.__repr__:
-            each.__repr__ = _repr  # type: ignore[method-assign]
+        if inspect.isclass(each) and each.__module__.startswith(module.__name__.split(".")[0]):
+            if each.__repr__ is object.__repr__:
+                each.__repr__ = _repr  # type: ignore[method-assign]
+            if not issubclass(each, (int, BaseException)):
+                each._repr_html_ = _html
         elif inspect.ismodule(each) and each.__name__.startswith(module.__name__ + "."):
             teach(each)

@@ -314,10 +314,13 @@ void bind_stiffness(nb::module_ &m)
          "places: (nodes, 2), x and y (r and z) of node 0, 1, ….\n"
          "dofs: (nodes, 2), rows of K of each node's two directions, -1: none. Left out: rows "
          "2 i and 2 i + 1 are those of node i.\n"
+         "formulation: 'plane', or 'axisymmetric', where x is r and K is of the whole "
+         "circumference.\n"
          "elements: (elements, 3, 4, 6, 7, 8 or 9) nodes, corners in order around it, then the "
          "middles of the sides; a list of such arrays if there are several kinds. They tell "
          "outer edges, so that contact_line() takes nodes in any order.\n"
-         "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name.\n"
+         "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name. "
+         "name: what sentences call the body.\n"
          "supports_left_out: K resists motions that nothing here holds (springs to the ground, "
          "supports whose rows are gone). Rows that hold nothing but their diagonal, or "
          "nothing, "
@@ -392,7 +395,7 @@ void bind_stiffness(nb::module_ &m)
          "nodes_of",
          [](const Self &self, const std::string &set)
          { return array_of_indices(self.nodes_of(set)); },
-         arg("set"))
+         arg("set"), "Numbers of the nodes of a set, by its name in whatever capitals.")
       .def(
          "fix",
          [](Self &self, Nodes nodes, const std::string &direction)
@@ -400,7 +403,10 @@ void bind_stiffness(nb::module_ &m)
             const NodalStiffness::Nodes at = nodes_in(self, nodes);
             for (int d : directions(self, direction)) { self.fix(at, d); }
          },
-         arg("nodes"), arg("direction"), "Holds nodes.")
+         arg("nodes"), arg("direction"),
+         "Holds nodes: they do not move along the direction, whatever the loads.\n\n"
+         "nodes: the name of a set, numbers of nodes, or a mask over `nodes`.\n"
+         "direction: 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'.")
       .def(
          "add_forces",
          [](Self &self, const std::string &load, Nodes nodes, const std::string &direction,
@@ -411,7 +417,11 @@ void bind_stiffness(nb::module_ &m)
             for (int d : directions(self, direction)) { self.add_forces(load, at, d, force); }
          },
          arg("load"), arg("nodes"), arg("direction"), arg("force"),
-         "Adds a force at each of the nodes to the load of that name.")
+         "Adds a force at each node, per unit multiplier, to a load.\n\n"
+         "load: its name, a new one or one that is there. nodes: the name of a set, numbers of "
+         "nodes, or a mask over `nodes`. direction: 'x', 'y' or 'xy', about an axis 'r', 'z' "
+         "or 'rz'. force: at each of the nodes, along it; about an axis of the whole "
+         "circumference.")
       .def(
          "add_displacement",
          [](Self &self, const std::string &load, Nodes nodes, const std::string &direction,
@@ -425,7 +435,11 @@ void bind_stiffness(nb::module_ &m)
             }
          },
          arg("load"), arg("nodes"), arg("direction"), arg("value"),
-         "Moves nodes by a value per unit multiplier, and fixes them.")
+         "Moves nodes by a value per unit multiplier of a load, and fixes them.\n\n"
+         "load: its name; a load has forces or displacements. nodes: the name of a set, "
+         "numbers "
+         "of nodes, or a mask over `nodes`. direction: 'x', 'y' or 'xy', about an axis 'r', "
+         "'z' or 'rz'. value: the displacement along it.")
       .def(
          "add_traction",
          [](Self &self, const std::string &load, Nodes nodes, Numbers traction, int order)
@@ -434,17 +448,23 @@ void bind_stiffness(nb::module_ &m)
                               within(order, "order", 0, 8));
          },
          arg("load"), arg("nodes"), arg("traction"), arg("order") = 0,
-         "A force (x, y) per length (area, about an axis) on the elements that contact_line() "
-         "finds.")
+         "Adds a force per length, about an axis per area, to a load.\n\n"
+         "load: its name. nodes: of the part of the boundary, as contact_line() takes them. "
+         "traction: (x, y), about an axis (r, z), per unit multiplier. order: as "
+         "contact_line() has it.")
       .def(
          "add_supports",
          [](Self &self, const std::string &supports)
          { add_supports(self, "supports", supports); },
-         arg("supports"), "Supports in words, as in case files: \"FLOOR:y WALL:xy\".")
+         arg("supports"),
+         "supports: in words, as in case files, \"FLOOR:y WALL:xy\": sets and the directions "
+         "that are held.")
       .def(
          "add_loads",
          [](Self &self, const std::string &loads) { add_loads(self, "loads", loads); },
-         arg("loads"), "Loads in words: \"P traction TOP 0 -1; D displacement-x END 0.01\".")
+         arg("loads"),
+         "loads: in words, as in case files, \"P traction TOP 0 -1; P force TIP 0 -1; D "
+         "displacement-x END 0.01\": load, kind, set, values.")
       .def("parts", &Self::parts,
            "The bodies that are connected to nothing, each called by a set that is all of it.")
       .def(
@@ -452,7 +472,8 @@ void bind_stiffness(nb::module_ &m)
          [](const Self &self, Nodes nodes, int order)
          { return self.contact_line(nodes_in(self, nodes), within(order, "order", 0, 8)); },
          arg("nodes"), arg("order") = 0,
-         "The trace of the body on nodes.\n\norder 0: on outer edges all of whose nodes are "
+         "The trace of the body on nodes: the name of a set, numbers of nodes, or a mask over "
+         "`nodes`.\n\norder 0: on outer edges all of whose nodes are "
          "among the given ones, in whatever order. order 1 to 8, where no elements are known: "
          "nodes in order, the body on their left, elements of that order through them.")
       .def("__repr__", &brief);
@@ -474,27 +495,33 @@ void bind_stiffness(nb::module_ &m)
          return result;
       },
       arg("matrix"), arg("places") = nb::none(),
-      "Reads a stiffness that CalculiX (.sti), ABAQUS (.mtx), MATLAB (.mat with K, by SciPy) "
-      "or "
-      "a script (.mtx, .npy, .npz with .dofs; .npz of write_npz) wrote; `places`: the file "
-      "that says where nodes are, if that is not beside it.");
+      "Reads a stiffness.\n\n"
+      "matrix: a file of CalculiX (.sti), ABAQUS (.mtx), MATLAB (.mat with K, by SciPy) or a "
+      "script (.mtx, .npy, .npz with .dofs; .npz of write_npz).\n"
+      "places: the file that says where nodes are, an .inp or .dofs, if that is not beside "
+      "it.");
    m.def(
       "nodal_stiffness", [](CondensedBody &body) { return nodal_stiffness(body); }, arg("body"),
-      "What a condensed body is to another program.");
+      "The stiffness of a condensed body on its contact nodes, as another program takes it.");
    m.def(
       "write_abaqus",
       [](File name, const Self &stiffness) { write_abaqus(file(name), stiffness); },
-      arg("file"), arg("stiffness"), "An .mtx with *USER ELEMENT, and an .inp beside it.");
+      arg("file"), arg("stiffness"),
+      "Writes a stiffness for ABAQUS. file: an .mtx, with *USER ELEMENT; an .inp is written "
+      "beside it.");
    m.def(
       "write_matrix_market",
       [](File name, const Self &stiffness) { write_matrix_market(file(name), stiffness); },
       arg("file"), arg("stiffness"),
-      "An .mtx, and the .dofs beside it that read_stiffness() asks for.");
+      "Writes a stiffness as MatrixMarket. file: an .mtx; the .dofs that read_stiffness() asks "
+      "for is written beside it.");
    m.def(
       "write_nastran",
       [](File name, const Self &stiffness) { write_nastran(file(name), stiffness); },
       arg("file"), arg("stiffness"),
-      "A bulk data file with DMIG KAAX, GRID, SPC1 and FORCE, to 10 or 11 digits.");
+      "Writes a stiffness for Nastran. file: bulk data with DMIG KAAX, GRID, SPC1 and FORCE, "
+      "to "
+      "10 or 11 digits.");
 }
 
 void bind_lines(nb::module_ &m)
@@ -571,7 +598,8 @@ void bind_lines(nb::module_ &m)
 
    m.def(
       "joined", [](const std::vector<Self> &lines) { return joined(lines); }, arg("lines"),
-      "The trace of a body with several interfaces, to be condensed to at once.");
+      "The trace of a body with several interfaces, to be condensed to at once: all nodes of "
+      "the lines, one line after the other, each once.");
    m.def(
       "straight_line",
       [](Numbers grid, int order, const std::string &formulation)
@@ -582,8 +610,9 @@ void bind_lines(nb::module_ &m)
                               chosen<Formulation>(formulation, "formulation"));
       },
       arg("grid"), arg("order") = 1, arg("formulation") = "plane",
-      "The trace of a body above y = 0 without a mesh: elements that end at the places "
-      "`grid`.");
+      "The trace of a body above y = 0 without a mesh.\n\n"
+      "grid: x (r about an axis) where elements end, increasing. order: of the elements, 1 to "
+      "8. formulation: 'plane', 'axisymmetric' or 'torsion'.");
 }
 
 void bind_condensed(nb::module_ &m)
@@ -611,8 +640,8 @@ void bind_condensed(nb::module_ &m)
                vector(multipliers, "multipliers", static_cast<Index>(self.patterns.size()))));
          },
          arg("u"), arg("multipliers"),
-         "Displacements of all rows for those of the contact nodes {v; w} and load "
-         "multipliers.")
+         "Displacements of all rows of the stiffness. u: {v; w} of the contact nodes of this "
+         "body, (2 n,). multipliers: of its loads, in their order.")
       .def("error_estimate", &Self::error_estimate,
            "Relative error of S from round-off, from above; a few solves.")
       .def("__repr__",

@@ -52,7 +52,9 @@ void bind_half_planes(nb::module_ &m)
             material.validate();
             new (self) Material(material);
          },
-         arg("young"), arg("poisson"), arg("plane_stress") = false)
+         arg("young"), arg("poisson"), arg("plane_stress") = false,
+         "young: Young's modulus E, > 0. poisson: Poisson's ratio, -1 to 0.5, neither of them. "
+         "plane_stress: is the plane one of stress? Else of strain.")
       .def_ro("young", &Material::young)
       .def_ro("poisson", &Material::poisson)
       .def_prop_ro("plane_stress",
@@ -95,6 +97,7 @@ void bind_half_planes(nb::module_ &m)
          arg("material"), arg("depth") = 0.0, arg("point") = nb::make_tuple(0.0, 0.0),
          arg("normal") = nb::make_tuple(0.0, -1.0), arg("symmetric") = nb::none(),
          arg("forces") = nb::dict(), arg("bulk") = nb::dict(),
+         "material: its elastic constants.\n"
          "depth: of the plane, > 0: displacements are relative to the point at this depth "
          "below "
          "each force; what given forces do to a contact does not depend on it. At least twice "
@@ -134,8 +137,11 @@ void bind_half_planes(nb::module_ &m)
       },
       arg("body"), arg("line"),
       "Condenses a body to the nodes of a contact line: one sparse factorisation, one solve a "
-      "load. Of a half-plane the line is that of the body that presses on it, or ends of "
-      "elements of the given order along its surface.");
+      "load.\n\n"
+      "body: with a mesh or matrix, or a half-plane. line: of body.contact_line(), several of "
+      "them joined(); of a half-plane that of the body that presses on it, or the places of "
+      "the ends of elements along its surface. order: of these elements, 1 to 8. formulation: "
+      "of them, 'plane' or 'axisymmetric'.");
    m.def(
       "condense",
       [](const HalfPlane &body, const ContactLine &line)
@@ -170,7 +176,8 @@ void bind_half_planes(nb::module_ &m)
             double bulk)
          { new (self) Field(body, line, vector(forces, "forces", 2 * line.size()), bulk); },
          arg("body"), arg("line"), arg("forces"), arg("bulk") = 0.0,
-         "line: of the condensed half-plane. forces: {q; p} on its nodes in their frames. "
+         "body: the half-plane. line: of the condensed half-plane. forces: {q; p} on its nodes "
+         "in their frames. "
          "bulk: "
          "uniform stress along the surface that acts beside them, tension positive.")
       .def(

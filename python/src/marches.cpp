@@ -6,7 +6,9 @@
 #include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
+#include <algorithm>
 #include <cattaneo/friction/history_statements.hpp>
+#include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/joints/bolts.hpp>
 #include <cattaneo/words.hpp>
 #include <nanobind/stl/map.h>
@@ -23,6 +25,83 @@ namespace
 
 using Observer = std::optional<nb::typed<nb::callable, nb::object(ContactState)>>;
 
+/// What an interface went through in a march: a number, or a number a component, of each
+/// increment.
+struct InterfaceMarch
+{
+   std::string name;
+   std::vector<int> nodes;                ///< of the problem, increasing
+   std::vector<double> normal;            ///< sum of p
+   std::vector<double> tangential;        ///< sums of q, one component after the other
+   std::vector<double> slip;              ///< mean of v by weights, as these
+   std::vector<int> stick, slipped, open; ///< numbers of nodes
+   std::vector<double> dissipation;       ///< of each cycle
+};
+
+/// The interfaces of a problem by the names of its chains. Without chains all nodes are of one.
+std::vector<InterfaceMarch> interfaces_of(const ReducedProblem &problem)
+{
+   std::vector<InterfaceMarch> all;
+   std::map<std::string, std::size_t> at;
+   for (const ContactChain &chain : problem.chains)
+   {
+      const auto [found, is_new] = at.emplace(chain.interface, all.size());
+      if (is_new) { all.push_back({chain.interface, {}, {}, {}, {}, {}, {}, {}, {}}); }
+      std::vector<int> &nodes = all[found->second].nodes;
+      for (Index i = 0; i < chain.nodes; ++i)
+      {
+         nodes.push_back(static_cast<int>(chain.first + i));
+      }
+   }
+   if (all.empty())
+   {
+      all.emplace_back();
+      for (Index i = 0; i < problem.nodes(); ++i)
+      {
+         all[0].nodes.push_back(static_cast<int>(i));
+      }
+   }
+   for (InterfaceMarch &each : all)
+   {
+      if (each.name.empty()) { each.name = "contact"; }
+   }
+   return all;
+}
+
+/// Adds an increment's end to each interface.
+void note(std::vector<InterfaceMarch> &interfaces, const ReducedProblem &problem,
+          const ContactState &at)
+{
+   const std::vector<NodeState> states = settled_states(problem, at);
+   const bool weighted = problem.weights.size() == problem.nodes();
+   for (InterfaceMarch &each : interfaces)
+   {
+      each.normal.push_back(at.p(each.nodes).sum());
+      for (Index c = 0; c < problem.components(); ++c)
+      {
+         const auto q = at.q.segment(c * problem.nodes(), problem.nodes()),
+                    v = at.v.segment(c * problem.nodes(), problem.nodes());
+         // Shear that cancels leaves round-off.
+         const Eigen::VectorXd forces = q(each.nodes);
+         const double sum = forces.sum();
+         const bool none = std::abs(sum) <= 1e-12 * forces.lpNorm<1>();
+         each.tangential.push_back(none ? 0.0 : sum);
+         const Eigen::VectorXd weights =
+            weighted ? Eigen::VectorXd(problem.weights(each.nodes))
+                     : Eigen::VectorXd::Ones(static_cast<Index>(each.nodes.size()));
+         each.slip.push_back(weights.dot(v(each.nodes)) / weights.sum());
+      }
+      const auto count = [&](auto is)
+      {
+         return static_cast<int>(std::count_if(each.nodes.begin(), each.nodes.end(),
+                                               [&](int i) { return is(states[i]); }));
+      };
+      each.stick.push_back(count([](NodeState of) { return of == NodeState::stick; }));
+      each.slipped.push_back(count(slips));
+      each.open.push_back(count([](NodeState of) { return !closed(of); }));
+   }
+}
+
 /// A report with the state it ended in, and the problem it is of.
 struct March
 {
@@ -30,7 +109,8 @@ struct March
    std::vector<std::string> loads;
    MarchReport report;
    ContactState state;
-   std::vector<ContactState> states; ///< of all increments, if they were to be kept
+   std::vector<ContactState> states;       ///< of all increments, if they were to be kept
+   std::vector<InterfaceMarch> interfaces; ///< of marches that were followed
 
    /// A column for each increment.
    template <class Value>
@@ -57,7 +137,7 @@ struct March
 
 March march_of(const ReducedProblem &problem)
 {
-   March march{nb::find(problem), {}, {}, {}, {}};
+   March march{nb::find(problem), {}, {}, {}, {}, {}};
    for (const LoadPattern &each : problem.patterns) { march.loads.push_back(each.name); }
    return march;
 }
@@ -77,16 +157,24 @@ March march_by(const Marcher &marcher, const ReducedProblem &problem, const Hist
    const LoadHistory loads = history_from(problem, history, march.state);
    Watch watch(progress, stop);
    settings.monitor = watch.monitor();
+   march.interfaces = interfaces_of(problem);
    const MarchObserver each = [&](const ContactState &at, const IncrementRecord &)
    {
+      note(march.interfaces, problem, at);
       if (keep_states) { march.states.push_back(at); }
       if (!observer) { return; }
       const nb::gil_scoped_acquire lock;
       (*observer)(nb::cast(ContactState(at)));
       watch.ask(); // an observer that ends the march ends it here
    };
-   const MarchObserver watched = keep_states || observer ? each : MarchObserver();
-   march.report = unlocked([&] { return marcher(loads, march.state, settings, watched); });
+   march.report = unlocked([&] { return marcher(loads, march.state, settings, each); });
+   for (InterfaceMarch &interface : march.interfaces)
+   {
+      for (const CycleRecord &cycle : march.report.cycles)
+      {
+         interface.dissipation.push_back(cycle.node_dissipation(interface.nodes).sum());
+      }
+   }
    warn_of("march", march.report);
    if (march.report.status == FrictionStatus::converged &&
        march.report.counters.increments == 0)
@@ -132,6 +220,24 @@ March march_with_bolts(const BoltedJoint &self, const History &history,
    return march;
 }
 
+/// "interface 'face': normal force 90, tangential force -15, …" at the end of the march.
+std::string said_of(const InterfaceMarch &self)
+{
+   std::ostringstream text;
+   text << "interface '" << self.name << "': " << self.nodes.size() << " nodes";
+   if (self.normal.empty()) { return text.str(); }
+   text << ", normal force " << self.normal.back();
+   const std::size_t components = self.tangential.size() / self.normal.size();
+   for (std::size_t c = 0; c < components; ++c)
+   {
+      text << (c == 0 ? ", tangential force " : " and ")
+           << self.tangential[self.tangential.size() - components + c];
+   }
+   text << ", " << self.stick.back() << " stick, " << self.slipped.back() << " slip, "
+        << self.open.back() << " open";
+   return text.str();
+}
+
 std::string brief(const March &self)
 {
    const MarchReport &report = self.report;
@@ -146,11 +252,19 @@ std::string brief(const March &self)
    {
       text << " " << self.loads[l] << " = " << self.state.multipliers[static_cast<Index>(l)];
    }
-   text << "\n  normal force " << self.state.p.sum() << ", tangential force "
-        << self.state.q.sum() << ", dissipation " << self.state.dissipation
-        << "\n  largest residual " << report.largest_residual << ", energy imbalance "
-        << report.energy_imbalance << ", error of advancing contact " << report.advance_error
-        << " (estimate)";
+   if (self.interfaces.size() < 2)
+   {
+      text << "\n  normal force " << self.state.p.sum() << ", tangential force "
+           << self.state.q.sum();
+   }
+   for (const InterfaceMarch &each : self.interfaces)
+   {
+      if (self.interfaces.size() > 1) { text << "\n  " << said_of(each); }
+   }
+   text << (self.interfaces.size() < 2 ? ", " : "\n  ") << "dissipation "
+        << self.state.dissipation << "\n  largest residual " << report.largest_residual
+        << ", energy imbalance " << report.energy_imbalance << ", error of advancing contact "
+        << report.advance_error << " (estimate)";
    const LossError &loss = report.loss_error;
    if (loss.value > 0)
    {
@@ -205,6 +319,60 @@ void bind_cycles(nb::module_ &m)
                    << name(self.from) << " to " << name(self.to) << ">";
               return text.str();
            });
+}
+
+/// Numbers of each increment: (increments,), or of two components (increments, 2).
+Reals of_increments(const std::vector<double> &values, std::size_t increments)
+{
+   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+   const auto rows = static_cast<Index>(increments),
+              columns = increments == 0 ? 0 : static_cast<Index>(values.size()) / rows;
+   if (columns > 1)
+   {
+      return array(Rows(Eigen::Map<const Rows>(values.data(), rows, columns)));
+   }
+   return array(Eigen::VectorXd(
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()))));
+}
+
+void bind_interface_marches(nb::module_ &m)
+{
+   using Self = InterfaceMarch;
+   nb::class_<Self>(m, "InterfaceMarch",
+                    "What one interface went through in a march. Arrays have an entry an "
+                    "increment, as those of MarchReport.")
+      .def_ro("name", &Self::name)
+      .def_prop_ro(
+         "nodes", [](const Self &self) { return array_of_indices(self.nodes); },
+         "numbers of its nodes in the problem: state.p[nodes] are its normal forces")
+      .def_prop_ro(
+         "normal_force",
+         [](const Self &self) { return of_increments(self.normal, self.normal.size()); },
+         "sum of p, compression positive")
+      .def_prop_ro(
+         "tangential_force",
+         [](const Self &self) { return of_increments(self.tangential, self.normal.size()); },
+         "sum of q, which is -f p where all slips forward; with two tangential components "
+         "(increments, 2); no entries without friction")
+      .def_prop_ro(
+         "slip", [](const Self &self) { return of_increments(self.slip, self.normal.size()); },
+         "mean of v over the interface, by weights, as tangential_force")
+      .def_prop_ro(
+         "sticking", [](const Self &self) { return array_of_indices(self.stick); },
+         "number of nodes that stick")
+      .def_prop_ro(
+         "slipping", [](const Self &self) { return array_of_indices(self.slipped); },
+         "number of nodes that slip, whichever way")
+      .def_prop_ro(
+         "open", [](const Self &self) { return array_of_indices(self.open); },
+         "number of nodes that are apart, or touch without force")
+      .def_prop_ro(
+         "dissipation",
+         [](const Self &self)
+         { return of_increments(self.dissipation, self.dissipation.size()); },
+         "lost by friction in each marched cycle")
+      .def("__repr__",
+           [](const Self &self) { return "<InterfaceMarch: " + said_of(self) + ">"; });
 }
 
 /// A marched cycle, with the names of its loads.
@@ -296,8 +464,9 @@ void bind_marches(nb::module_ &m)
          },
          arg("problem"), arg("points"), arg("cycle_start") = nb::none(), arg("cycles") = 1,
          arg("times") = nb::none(),
-         "Through loads by names: through(problem, [{}, {'P': 1}, {'Q': 0.2}]). A load that a "
-         "point does not name keeps its value, from 0 at the first point.\n\ncycle_start: the "
+         "Through loads by names: through(problem, [{}, {'P': 1}, {'Q': 0.2}]).\n\n"
+         "points: multipliers of loads of the problem by name. A load that a point does not "
+         "name keeps its value, from 0 at the first point.\ncycle_start: the "
          "point from which on the rest repeats, `cycles` times; its loads are those of the "
          "last "
          "point. times: increasing, 0, 1, 2, … unless given; only a parameter.")
@@ -305,7 +474,9 @@ void bind_marches(nb::module_ &m)
          "read",
          [](const ReducedProblem &problem, const std::string &history)
          { return load_history("history", history, problem); },
-         arg("problem"), arg("text"), "As programs write it, \"P=0; P=1; Q=0.1; Q=-0.1\".")
+         arg("problem"), arg("text"),
+         "text: points as case files and programs have them, \"P=0; P=1; Q=0.1; Q=-0.1\", of "
+         "loads of the problem.")
       .def_prop_ro("times", viewed(&LoadHistory::times))
       .def_prop_ro("multipliers", viewed(&LoadHistory::multipliers), "(loads, points)")
       .def_ro("cycle_start", &LoadHistory::cycle_start, "-1: no cycle")
@@ -358,6 +529,8 @@ void bind_marches(nb::module_ &m)
               return text.str();
            });
 
+   bind_interface_marches(m);
+
    using Self = March;
    const auto number_of = [](auto member) // of each increment
    { return [member](const Self &self) { return array(self.each(member)); }; };
@@ -393,6 +566,20 @@ void bind_marches(nb::module_ &m)
          },
          nb::sig("def states(self) -> list[ContactState]"),
          "of each increment, if keep_states was True")
+      .def_prop_ro(
+         "interfaces",
+         [](const Self &self)
+         {
+            nb::dict all;
+            for (const InterfaceMarch &each : self.interfaces)
+            {
+               all[nb::cast(each.name)] = nb::cast(InterfaceMarch(each));
+            }
+            return all;
+         },
+         nb::sig("def interfaces(self) -> dict[str, InterfaceMarch]"),
+         "by name, in the order of their nodes: forces, slip and numbers of nodes of each; "
+         "empty in reports that are made of states alone")
       .def_prop_ro("time", number_of(&IncrementRecord::time))
       .def_prop_ro("cycle", number_of(&IncrementRecord::cycle), "0: opening part")
       .def_prop_ro(
@@ -405,7 +592,8 @@ void bind_marches(nb::module_ &m)
          [](const Self &self) { return self.each_load(&IncrementRecord::conjugates); },
          nb::sig("def conjugates(self) -> dict[str, numpy.typing.NDArray[numpy.float64]]"),
          "displacement of a force, reaction of a displacement, by the name of the load")
-      .def_prop_ro("stick", number_of(&IncrementRecord::stick), "number of nodes")
+      .def_prop_ro("stick", number_of(&IncrementRecord::stick),
+                   "number of nodes, of all interfaces together, as the next three")
       .def_prop_ro("separation", number_of(&IncrementRecord::separation))
       .def_prop_ro("forward_slip", number_of(&IncrementRecord::forward_slip))
       .def_prop_ro("backward_slip", number_of(&IncrementRecord::backward_slip))
@@ -478,8 +666,9 @@ void bind_marches(nb::module_ &m)
                .attr("march")(self, *positional, **named);
          },
          nb::sig("def plot(self, axes: typing.Any = None) -> typing.Any"),
-         "Tractions and slip at the end along the contact line, and the loop of each load that "
-         "varies; needs matplotlib. Returns its axes.")
+         "Tractions and slip at the end along the line of each interface, and the loop of each "
+         "load that varies; needs matplotlib. axes: as many as there are figures, None for new "
+         "ones. Returns them.")
       .def("__repr__", &brief);
 
    MarchSettings told; // unless they are given
@@ -491,6 +680,7 @@ void bind_marches(nb::module_ &m)
       arg("members"),
       "Marches a contact along a load history, from rest or from `state`, which stays as it "
       "is.\n\n"
+      "problem: the contact, which stays as it is as well.\n"
       "history: points, [{}, {'P': 1}, {'Q': 0.2}], the first of which is where the state "
       "stands; a load that a point does not name keeps its value. Or a LoadHistory, whose "
       "times "
@@ -543,14 +733,17 @@ void bind_marches(nb::module_ &m)
             return all;
          },
          arg("state"), nb::sig("def forces(self, state: ContactState) -> dict[str, float]"),
-         "By name, in units of the forces of the bolts' loads.")
-      .def(
-         "march", &march_with_bolts, arg("history"), arg("state") = nb::none(), nb::kw_only(),
-         arg("settings") = told, arg("keep_states") = false, arg("observer") = nb::none(),
-         arg("progress") = false, arg("stop") = nb::none(), arg("members"),
-         "As march(), with histories in which the multiplier of a bolt's load is its force at "
-         "the end of the piece in which it changes. In states it is its pretension. A bolt "
-         "that would push ends the march with status 'stopped' where its force is zero.")
+         "The force of each bolt in a state of `problem`, by its name, in units of the forces "
+         "of its load; pulling is positive.")
+      .def("march", &march_with_bolts, arg("history"), arg("state") = nb::none(), nb::kw_only(),
+           arg("settings") = told, arg("keep_states") = false, arg("observer") = nb::none(),
+           arg("progress") = false, arg("stop") = nb::none(), arg("members"),
+           "As march(), whose arguments these are.\n\n"
+           "history: the multiplier of a bolt's load is its force at the end of the piece in "
+           "which it changes. In states it is its pretension. A bolt that would push ends the "
+           "march with status 'stopped' where its force is zero.\n"
+           "state: of `problem`, where the march begins; None: before any load.\n"
+           "settings, keep_states, observer, progress, stop: as march() has them.")
       .def("__repr__",
            [](const Joint &self)
            {
@@ -563,8 +756,9 @@ void bind_marches(nb::module_ &m)
       [](const ReducedProblem &problem, const ContactState &state)
       { return array(conjugates(problem, state)); },
       arg("problem"), arg("state"),
-      "What does work with each load's multiplier: displacement of a force, reaction of a "
-      "displacement.");
+      "What does work with each load's multiplier in a state of a problem, in the order of "
+      "problem.loads: displacement of a force, along it, reaction of a prescribed "
+      "displacement, pushing along it.");
 }
 
 } // namespace cattaneo::python

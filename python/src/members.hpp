@@ -16,7 +16,7 @@ template <class T>
 void bind_copies(nb::class_<T> &value, const char *doc = "")
 {
    const auto copied = [](const T &self) { return T(self); };
-   value.def("copy", copied, doc)
+   value.def("copy", copied, *doc ? doc : "Another one with the same values.")
       .def("__copy__", copied)
       .def(
          "__deepcopy__", [](const T &self, nb::object) { return T(self); }, arg("memo"));

@@ -71,7 +71,7 @@ void bind_common(nb::module_ &m)
          Counters::for_each(self, [&](const char *name, long) { names.append(name); });
          return names;
       },
-      nb::sig("def keys(self) -> list[str]"));
+      nb::sig("def keys(self) -> list[str]"), "Names of the counts.");
    counters.def("__getitem__",
                 [](const Counters &self, const std::string &name)
                 {

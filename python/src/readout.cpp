@@ -3,6 +3,7 @@
 #include "arrays.hpp"
 #include "members.hpp"
 #include "module.hpp"
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 #include <sstream>
@@ -31,6 +32,40 @@ std::string with_error(double value, double error)
    return text.str();
 }
 
+/// A zone with what its numbers stand for.
+struct NamedZone
+{
+   Zone zone;
+   std::optional<NodeState> state; ///< none: in contact, whatever slips
+   std::string interface;
+
+   bool none() const { return zone.last < zone.first; }
+};
+
+std::vector<NamedZone> named(const ReducedProblem &problem, const std::vector<Zone> &zones,
+                             bool contact)
+{
+   std::vector<NamedZone> all;
+   for (const Zone &zone : zones)
+   {
+      const bool known =
+         zone.last >= zone.first && zone.chain < static_cast<int>(problem.chains.size());
+      all.push_back({zone, contact ? std::nullopt : std::optional(zone.state),
+                     known ? problem.chains[zone.chain].interface : std::string()});
+   }
+   return all;
+}
+
+std::string brief(const NamedZone &self)
+{
+   const std::string kind = self.state ? name(*self.state) : "contact";
+   if (self.none()) { return "<Zone: no " + kind + ">"; }
+   return "<Zone: " + kind + " from " +
+          with_error(self.zone.from.position, self.zone.from.error) + " to " +
+          with_error(self.zone.to.position, self.zone.to.error) +
+          (self.interface.empty() ? "" : " of '" + self.interface + "'") + ">";
+}
+
 void bind_zones(nb::module_ &m)
 {
    nb::class_<ZoneBorder>(m, "ZoneBorder", "A point on the contact line found between nodes.")
@@ -41,46 +76,61 @@ void bind_zones(nb::module_ &m)
       .def("__float__", [](const ZoneBorder &self) { return self.position; })
       .def("__repr__",
            [](const ZoneBorder &self) { return with_error(self.position, self.error); });
-   nb::class_<Zone>(m, "Zone", "A run of contact nodes in one state.")
-      .def_ro("state", &Zone::state)
-      .def_ro("from_", &Zone::from)
-      .def_ro("to", &Zone::to)
-      .def_ro("first", &Zone::first)
-      .def_ro("last", &Zone::last)
-      .def_ro("chain", &Zone::chain)
+   nb::class_<NamedZone>(m, "Zone", "A run of contact nodes in one state, or in contact.")
       .def_prop_ro(
-         "width", [](const Zone &self)
-         { return self.last < self.first ? 0.0 : self.to.position - self.from.position; })
-      .def("__repr__",
-           [](const Zone &self)
-           {
-              if (self.last < self.first) { return std::string("<Zone: none>"); }
-              return std::string("<Zone: ") + name(self.state) + " from " +
-                     with_error(self.from.position, self.from.error) + " to " +
-                     with_error(self.to.position, self.to.error) + ">";
-           });
+         "state", [](const NamedZone &self) { return self.state; },
+         nb::sig("def state(self) -> NodeState | None"),
+         "of all its nodes; None: they are in contact, whatever slips")
+      .def_ro("interface", &NamedZone::interface, "its name, '' where the problem knows none")
+      .def_prop_ro(
+         "from_", [](const NamedZone &self) { return self.zone.from; }, "first end")
+      .def_prop_ro(
+         "to", [](const NamedZone &self) { return self.zone.to; }, "last end")
+      .def_prop_ro(
+         "first", [](const NamedZone &self) { return self.zone.first; },
+         "number of its first node")
+      .def_prop_ro(
+         "last", [](const NamedZone &self) { return self.zone.last; },
+         "of its last node; less than `first`: there is no such zone")
+      .def_prop_ro(
+         "chain", [](const NamedZone &self) { return self.zone.chain; },
+         "index in problem.chains of the line that it is on")
+      .def_prop_ro(
+         "width",
+         [](const NamedZone &self)
+         { return self.none() ? 0.0 : self.zone.to.position - self.zone.from.position; },
+         "along the line; 0: there is no such zone")
+      .def("__repr__", &brief);
 
    m.def(
       "zones",
       [](const ReducedProblem &problem, const ContactState &state)
-      { return zones(problem, checked(problem, state)); },
+      { return named(problem, zones(problem, checked(problem, state)), false); },
       arg("problem"), arg("state"),
-      "Zones of a state along the contact line, in the order of the nodes.");
+      "Zones of a state of the problem along its contact lines, in the order of the nodes: "
+      "runs of nodes that stick, slip one way, or are apart.");
    m.def(
       "contact_zones",
       [](const ReducedProblem &problem, const ContactState &state)
-      { return contact_zones(zones(problem, checked(problem, state))); },
-      arg("problem"), arg("state"), "Stretches of contact, whatever slips.");
+      { return named(problem, contact_zones(zones(problem, checked(problem, state))), true); },
+      arg("problem"), arg("state"),
+      "Stretches of contact in a state of the problem, on each of its lines: runs of nodes "
+      "that "
+      "are pressed, whether they stick or slip.");
    m.def(
       "contact_zone",
       [](const ReducedProblem &problem, const ContactState &state)
-      { return contact_zone(problem, checked(problem, state)); },
-      arg("problem"), arg("state"), "The widest stretch of contact.");
+      { return named(problem, {contact_zone(problem, checked(problem, state))}, true)[0]; },
+      arg("problem"), arg("state"),
+      "The widest of contact_zones(), of all lines and interfaces of the problem in this "
+      "state; "
+      "its width is 0 where all nodes are apart.");
    m.def(
       "stick_zone",
       [](const ReducedProblem &problem, const ContactState &state)
-      { return stick_zone(problem, checked(problem, state)); },
-      arg("problem"), arg("state"), "The widest zone of stick.");
+      { return named(problem, {stick_zone(problem, checked(problem, state))}, false)[0]; },
+      arg("problem"), arg("state"),
+      "The widest zone of stick in a state of the problem; its width is 0 where none sticks.");
    m.def(
       "tractions",
       [](const ReducedProblem &problem, Numbers nodal_forces)
@@ -90,7 +140,8 @@ void bind_zones(nb::module_ &m)
          return array(tractions(problem, vector(nodal_forces, "nodal_forces")));
       },
       arg("problem"), arg("nodal_forces"),
-      "Forces over consistent weights: of p, (n,), or of the components of q, (c n,).");
+      "Forces over the weights of the problem's nodes. nodal_forces: p, (n,), or q, (c n,), of "
+      "a state.");
 }
 
 void bind_edges(nb::module_ &m)
@@ -125,8 +176,9 @@ void bind_edges(nb::module_ &m)
          },
          arg("edge"), arg("position"), arg("pressure"), arg("shear"),
          arg("width") = std::numeric_limits<double>::infinity(),
+         "edge: its arc length. position, pressure: of each node. "
          "shear: fully stuck, on the cracked body, positive in the direction of increasing "
-         "position; width: from this edge to the other edge of the contact, if it is known.")
+         "position. width: from this edge to the other edge of the contact, if it is known.")
       .def_ro("edge", &EdgeTractions::edge)
       .def_ro("position", &EdgeTractions::position)
       .def_ro("pressure", &EdgeTractions::pressure)
@@ -150,7 +202,8 @@ void bind_edges(nb::module_ &m)
          return fit_edge(tractions, settings);
       },
       arg("tractions"), nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
-      "K_N and K_T by least squares.");
+      "K_N and K_T by least squares. tractions: near the edge, of any program. settings: which "
+      "nodes are fitted.");
 
    nb::class_<ContactEdge>(m, "ContactEdge", "One end of a stretch of contact.")
       .def_ro("position", &ContactEdge::position)
@@ -191,21 +244,26 @@ void bind_edges(nb::module_ &m)
       },
       arg("problem"), arg("pressed"), arg("loaded"), arg("cracked") = "second", nb::kw_only(),
       arg("settings") = FitSettings(), arg("members"),
-      "K_N, K_T and the slip zone at each end of each stretch of contact.\n\npressed: after "
-      "the "
-      "normal load alone. loaded: at peak load. cracked: 'first' or 'second' body.");
+      "K_N, K_T and the slip zone at each end of each stretch of contact.\n\npressed: a state "
+      "of the problem after the normal load alone. loaded: at peak load. cracked: the body "
+      "that "
+      "K_T and slip speak of, 'first' or 'second'. settings: which nodes are fitted.");
    m.def(
       "edge_tractions",
       [](const ReducedProblem &problem, const ContactState &state, const ContactEdge &edge,
          const std::string &cracked)
       { return edge_tractions(problem, checked(problem, state), edge, cracked_body(cracked)); },
-      arg("problem"), arg("state"), arg("edge"), arg("cracked") = "second");
+      arg("problem"), arg("state"), arg("edge"), arg("cracked") = "second",
+      "Tractions of a state near an edge, one of contact_edges(), as fit_edge() takes them. "
+      "cracked: "
+      "'first' or 'second', the body on which shear is positive towards larger arc length.");
    m.def(
       "fully_stuck",
       [](const ReducedProblem &problem, const ContactState &pressed, const ContactState &loaded)
       { return fully_stuck(problem, checked(problem, pressed), checked(problem, loaded)); },
       arg("problem"), arg("pressed"), arg("loaded"),
-      "The state if nothing had slipped since `pressed`.");
+      "The state under the loads of `loaded` if nothing had slipped since `pressed`, both of "
+      "the problem.");
 }
 
 } // namespace

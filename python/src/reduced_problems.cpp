@@ -187,7 +187,9 @@ void bind_reduced_problems(nb::module_ &m)
             new (self) LoadPattern(std::move(pattern));
          },
          arg("name"), arg("q"), arg("p"), arg("control") = "force",
-         "q: tangential forces of all nodes. p: normal ones, compression positive. control: "
+         "name: of the load. q: tangential forces of all nodes, (c n,), if none moved, per "
+         "unit "
+         "multiplier. p: normal ones, (n,), compression positive. control: "
          "'force', or 'displacement' if the multiplier prescribes one.")
       .def_ro("name", &LoadPattern::name)
       .def_prop_ro("control", [](const LoadPattern &self)
@@ -228,9 +230,15 @@ void bind_reduced_problems(nb::module_ &m)
          arg("A"), arg("B"), arg("C"), arg("patterns"), nb::kw_only(), arg("gap") = 0.0,
          arg("friction") = 0.0, arg("weights") = nb::none(), arg("arc_length") = nb::none(),
          arg("position") = nb::none(), arg("H") = nb::none(), arg("rigid_motions") = nb::none(),
-         "A problem made by hand: A (c n, c n), B (n, c n), C (n, n). gap and friction are of "
-         "each node, or one number. With arc_length, which increases, its nodes follow each "
-         "other on one line. position: (n, 2), or (n, 3) of a surface in space.\n"
+         "A problem made by hand: A (c n, c n), B (n, c n), C (n, n). patterns: its loads.\n"
+         "gap and friction: of each node, or one number.\n"
+         "weights: length or area that each node stands for; tractions and laws of friction "
+         "need them.\n"
+         "arc_length: increasing; with it the nodes follow each other on one line.\n"
+         "position: (n, 2), or (n, 3) of a surface in space.\n"
+         "H: loads by loads, displacements of forces (reactions of displacements) if no "
+         "contact "
+         "node moved; None: not known, conjugates are the contact's part.\n"
          "rigid_motions: (c n + n, k), all motions (v, w) that nothing resists, columns, where "
          "they are known; None: they are sought.")
       .def_prop_ro("nodes", &Self::nodes, "n")
@@ -323,18 +331,22 @@ void bind_reduced_problems(nb::module_ &m)
          "multipliers",
          [](const Self &self, const NamedLoads &loads)
          { return array(self.multipliers(loads)); },
-         arg("loads"), "in the order of the patterns, zero for those that are not named")
+         arg("loads"),
+         "loads: multipliers by name. In the order of the patterns, zero for those that are "
+         "not named")
       .def(
          "clamped_forces",
          [](const Self &self, const NamedLoads &loads)
          { return array(self.clamped_forces(self.multipliers(loads))); },
-         arg("loads"), "{q; p} under loads if no node moved")
-      .def("validate",
-           [](const Self &self)
-           {
-              self.validate();
-              require_semidefinite(self); // its arrays may be written to
-           })
+         arg("loads"), "{q; p} under loads, multipliers by name, if no node moved")
+      .def(
+         "validate",
+         [](const Self &self)
+         {
+            self.validate();
+            require_semidefinite(self); // its arrays may be written to
+         },
+         "InputError unless it is a contact problem: sizes, symmetry, signs, definiteness.")
       .def("__repr__", &brief);
 
    m.def(
@@ -345,18 +357,19 @@ void bind_reduced_problems(nb::module_ &m)
             indices(rows, "rows", 0, static_cast<long>(problem.slips()) - 1);
          hold(problem, {held.begin(), held.end()});
       },
-      arg("problem"), arg("rows"), "Holds rows of A: v = 0 there.");
+      arg("problem"), arg("rows"), "Holds rows of A of a problem: v = 0 there.");
    m.def(
       "set_friction",
       [](Self &problem, double coefficient)
       { set_numbers(problem.friction, nb::cast(coefficient), "friction", problem.nodes()); },
-      arg("problem"), arg("coefficient"), "The same coefficient at every node.");
+      arg("problem"), arg("coefficient"), "The same coefficient at every node of a problem.");
    m.def("absorb_gap", &absorb_gap, arg("problem"),
          "The equivalent problem without a gap, whose load 'gap' is to be held at 1.");
 
    m.def(
       "save", [](const Self &of, File name) { save(of, file(name)); }, arg("of"), arg("file"),
-      "Writes a reduced problem or a state as JSON, restored to the last bit.");
+      "Writes to a file, as JSON that is restored to the last bit. of: a reduced problem, a "
+      "ContactState or a WearState.");
    m.def(
       "save", [](const ContactState &of, File name) { save(of, file(name)); }, arg("of"),
       arg("file"));
@@ -365,12 +378,15 @@ void bind_reduced_problems(nb::module_ &m)
       arg("file"));
    m.def(
       "load_reduced_problem", [](File name) { return load_reduced_problem(file(name)); },
-      arg("file"), "Reads what save() wrote of a reduced problem.");
+      arg("file"),
+      "Reads a reduced problem from a file of save(), or of --save of the programs.");
    m.def(
       "write_npz",
       [](File name, const Self &of, Sparse M) { write_npz(file(name), of, mass(M)); },
       arg("file"), arg("of"), arg("M") = nb::none(),
-      "Arrays for programs of joint dynamics: K, loads and what belongs to them.");
+      "Writes arrays for programs of joint dynamics to a file that ends with .npz. of: a "
+      "reduced problem or a NodalStiffness, whose K and loads they are. M: its mass, of the "
+      "same rows, dense or sparse.");
 
    m.def(
       "write_npz",
@@ -403,10 +419,12 @@ void bind_reduced_problems(nb::module_ &m)
          const Self copy = problem;
          return unlocked([&] { return critical_friction(copy); });
       },
-      arg("problem"));
+      arg("problem"),
+      "The coefficients at which the contact of a problem changes its character, of its "
+      "stiffness alone.");
    m.def(
       "can_lock", [](const Self &problem) { return can_lock(problem); }, arg("problem"),
-      "Can the contact lock itself with the friction it has?");
+      "Can the contact of a problem lock itself with the friction it has?");
 }
 
 } // namespace cattaneo::python

@@ -99,7 +99,8 @@ void bind_reductions(nb::module_ &m)
       [](const ContactLine &line1, const ContactLine &line2, double tolerance)
       { return pair_lines(line1, line2, finite(tolerance, "tolerance")); },
       arg("line1"), arg("line2"), arg("tolerance") = 1e-6,
-      "Pairs nodes that match; tolerance: of the offset along the tangent, in edge lengths.");
+      "Pairs the nodes of line1 with those of line2 that face them, one to one. tolerance: of "
+      "the offset along the tangent, in edge lengths.");
 
    nb::class_<Interface>(m, "Interface",
                          "Where two bodies may touch, or a body and a rigid obstacle, or two "
@@ -125,6 +126,7 @@ void bind_reductions(nb::module_ &m)
          arg("name"), arg("first"), arg("second") = nb::none(), nb::kw_only(),
          arg("slave") = "coarser", arg("gap") = nb::none(), arg("most_overlap") = 0.1,
          arg("tied") = false, arg("pairing") = nb::none(),
+         "name: what tables and sentences call it.\n"
          "first, second: (number of the body, its line); no second: a rigid obstacle; of a "
          "half-plane the number alone.\n"
          "slave: which side carries the nodes: 'coarser', 'finer', 'first' or 'second'.\n"
@@ -202,7 +204,8 @@ void bind_reductions(nb::module_ &m)
             return array(self.displacement(body, state.v, state.w, state.multipliers));
          },
          arg("body"), arg("state"),
-         "Displacements of all rows of the stiffness of a body in a state; one solve.")
+         "Displacements of all rows of the stiffness of a body in a state of `problem`; one "
+         "solve. body: its number, from 0.")
       .def(
          "tied_forces",
          [](Self &self, const ContactState &state)
@@ -211,9 +214,8 @@ void bind_reductions(nb::module_ &m)
             return array(self.tied_forces(state.v, state.w, state.multipliers));
          },
          arg("state"),
-         "Nodal forces {q; p} that tied interfaces transfer, all tangential ones first, of "
-         "their "
-         "nodes in the order of `interfaces`.")
+         "Nodal forces {q; p} that tied interfaces transfer in a state of `problem`, all "
+         "tangential ones first, of their nodes in the order of `interfaces`.")
       .def(
          "warnings",
          [](const Self &self, const ContactState &state)
@@ -234,8 +236,8 @@ void bind_reductions(nb::module_ &m)
             self.add_obstacle_motion(name, place_function(ux, "ux"), place_function(uy, "uy"));
          },
          arg("name"), arg("ux"), arg("uy"),
-         "A load that moves the rigid obstacle of one body by (ux, uy) per unit multiplier, "
-         "numbers or functions of (x, y).")
+         "A load that moves the rigid obstacle of one body. name: of the load. ux, uy: how far "
+         "per unit multiplier, numbers or functions of (x, y).")
       .def("__repr__",
            [](Self &of)
            {
@@ -275,10 +277,9 @@ void bind_reductions(nb::module_ &m)
       { return completed(reduced_pair(body, other, pairing), torsion); },
       arg("body"), arg("other"), arg("pairing") = nb::none(), nb::kw_only(),
       arg("torsion") = nb::tuple(),
-      "Two bodies whose nodes match. Where nodes are at the same places but elements differ "
-      "they "
-      "meet as those of an interface do; a pairing that is given is taken and warned of "
-      "(OutcomeWarning).");
+      "Two bodies whose nodes match, `body` on the `other`. Where nodes are at the same places "
+      "but elements differ they meet as those of an interface do. pairing: of pair_lines(); it "
+      "is taken whatever the elements, and warned of (OutcomeWarning) where they differ.");
    m.def(
       "reduce",
       [](const Bodies &bodies, const std::vector<Interface> &interfaces,
@@ -291,9 +292,9 @@ void bind_reductions(nb::module_ &m)
       arg("bodies"), arg("interfaces"), nb::kw_only(), arg("half_plane") = nb::none(),
       arg("torsion") = nb::tuple(),
       (std::string(
-          "Any number of bodies, nodes that match or not; with half_plane=… on it, which "
-          "is body number len(bodies), the second side of interfaces without a line: "
-          "Interface('foot', (0, line), 1).\n") +
+          "Any number of bodies that meet at interfaces, nodes that match or not; with "
+          "half_plane=… on it, which is body number len(bodies), the second side of interfaces "
+          "without a line: Interface('foot', (0, line), 1).\n") +
        torsion_is)
          .c_str());
 
@@ -311,7 +312,8 @@ void bind_reductions(nb::module_ &m)
       "separate",
       [](const Bodies &bodies, const std::vector<Interface> &interfaces)
       { return separate(bodies, interfaces); },
-      arg("bodies"), arg("interfaces"));
+      arg("bodies"), arg("interfaces"),
+      "Condensed bodies that meet at interfaces, but keep displacements of their own.");
 }
 
 } // namespace cattaneo::python

@@ -35,12 +35,15 @@ void bind_states(nb::module_ &m)
                           "views that cannot be written to.");
    bind_validate(state);
    bind_copies(state);
-   state.def_static("virgin", &Self::virgin, arg("problem"), "Before any load.")
+   state
+      .def_static("virgin", &Self::virgin, arg("problem"),
+                  "A state of the problem before any load.")
       .def_static(
          "with_slip",
          [](const ReducedProblem &problem, Numbers v)
          { return Self::with_slip(problem, vector(v, "v", problem.slips())); },
-         arg("problem"), arg("v"), "Virgin but for a given slip.")
+         arg("problem"), arg("v"),
+         "Before any load, but with a given slip. v: (c n,), of the nodes of the problem.")
       .def_prop_ro("v", viewed(&Self::v), "slip, size c n")
       .def_prop_ro("w", viewed(&Self::w), "opening, size n")
       .def_prop_ro("q", viewed(&Self::q), "tangential nodal forces, size c n")
@@ -65,7 +68,7 @@ void bind_states(nb::module_ &m)
            });
    m.def(
       "load_contact_state", [](File name) { return load_contact_state(file(name)); },
-      arg("file"), "Reads what save() wrote of a state.");
+      arg("file"), "Reads a state from a file of save(), or of --save-state of the programs.");
    m.def(
       "settled_states",
       [](const ReducedProblem &problem, const Self &state)
@@ -74,7 +77,8 @@ void bind_states(nb::module_ &m)
          return state_numbers(settled_states(problem, state));
       },
       arg("problem"), arg("state"),
-      "NodeState of each node as mechanics decides it, whatever round-off made of ties.");
+      "NodeState of each node of a state of the problem, as mechanics decides it, whatever "
+      "round-off made of ties.");
 }
 
 } // namespace cattaneo::python
