@@ -16,46 +16,63 @@ void bind_half_spaces(nb::module_ &m)
       m, "HalfSpace",
       "Two elastic half-spaces that meet in the plane z = 0, or one on a rigid body: contact "
       "in "
-      "three dimensions without a mesh, tractions uniform on equal rectangles.")
+      "three dimensions without a mesh, tractions uniform on equal rectangles or on triangles.")
       .def(
          "__init__",
          [](HalfSpace *self, const Material &material, const std::optional<Material> &other,
-            Numbers size, Numbers centres, bool turns, bool ends)
+            const std::optional<Numbers> &size, const std::optional<Numbers> &centres,
+            const std::optional<Numbers> &vertices, const std::optional<Numbers> &triangles,
+            bool turns, bool ends)
          {
             HalfSpace body;
             body.material = material;
             body.other = other;
-            body.size = vector_or_number(size, "size", 2);
-            body.centres = matrix(centres, "centres", -1, 2);
+            if (size) { body.size = vector_or_number(*size, "size", 2); }
+            if (centres)
+            {
+               require(size.has_value(), "half-space: rectangles have centres and no size");
+               body.centres = matrix(*centres, "centres", -1, 2);
+            }
+            if (vertices) { body.vertices = matrix(*vertices, "vertices", -1, 2); }
+            if (triangles)
+            {
+               const Eigen::MatrixXd corners = matrix(*triangles, "triangles", -1, 3);
+               require(corners == corners.array().round().matrix() &&
+                          corners.cwiseAbs().maxCoeff() < 2e9,
+                       "half-space: triangles are not whole numbers of vertices");
+               body.triangles = corners.cast<int>();
+            }
             body.turns = turns;
             body.ends = ends;
             body.validate();
             new (self) HalfSpace(std::move(body));
          },
-         nb::arg("material"), nb::arg("other") = nb::none(), nb::kw_only(), nb::arg("size"),
-         nb::arg("centres"), nb::arg("turns") = false, nb::arg("ends") = false,
-         nb::sig("def __init__(self, material: Material, other: None | Material = None, *, "
-                 "size: numpy.typing.ArrayLike, centres: numpy.typing.ArrayLike, turns: bool = "
-                 "False, ends: bool = False) -> None"),
+         nb::arg("material"), nb::arg("other") = nb::none(), nb::kw_only(),
+         nb::arg("size") = nb::none(), nb::arg("centres") = nb::none(),
+         nb::arg("vertices") = nb::none(), nb::arg("triangles") = nb::none(),
+         nb::arg("turns") = false, nb::arg("ends") = false,
          "material: of the body above. other: of the half-space below; None: it is rigid.\n"
          "size: edges (x, y) of every rectangle, or one number for both.\n"
          "centres: (n, 2), of the rectangles that may touch: any cells of one grid, in any "
          "order.\n"
+         "vertices: (k, 2), and triangles: (n, 3), their corners, rows of vertices from 0, as "
+         "of scipy.spatial.Delaunay: instead of size and centres.\n"
          "turns: is the body above free to turn about the normal through x = y = 0?\n"
-         "ends: does a body end at the rim of the rectangles, as a flat punch? Else contact "
+         "ends: does a body end at the rim of the cells, as a flat punch? Else contact "
          "that is compressed there is cut off, and marches warn.")
       .def(
          "problem",
          [](const HalfSpace &self, Numbers gap)
          {
             const HalfSpace contact = self;
-            const Eigen::VectorXd gaps = vector_or_number(gap, "gap", self.centres.rows());
+            const Eigen::VectorXd gaps = vector_or_number(gap, "gap", self.nodes());
             const nb::gil_scoped_release unlocked;
             return contact.problem(gaps);
          },
          nb::arg("gap"),
-         "The frictional contact with a gap of each rectangle, (n,) at its centre, or one "
-         "number. First tangents along x, second along y, normals along z, into the body "
+         "The frictional contact with a gap of each cell, (n,) at the centre of a rectangle or "
+         "in the mean over a triangle, or one number. First tangents along x, second along y, "
+         "normals along z, into the body "
          "above; weights are areas.\n"
          "Loads are forces on this body from far away: 'P' presses it on the other one, 'Q1' "
          "and 'Q2' act along x and y; if it turns, 'T' is a moment about z. Their conjugates "
@@ -65,7 +82,7 @@ void bind_half_spaces(nb::module_ &m)
          [](const HalfSpace &self, Numbers points, Numbers forces)
          {
             return array(self.displacements(matrix(points, "points", -1, 2),
-                                            vector(forces, "forces", 3 * self.centres.rows())));
+                                            vector(forces, "forces", 3 * self.nodes())));
          },
          nb::arg("points"), nb::arg("forces"),
          "At points (m, 2) of the surface under nodal forces {q; p}, (3 n,): displacements (m, "
@@ -76,7 +93,7 @@ void bind_half_spaces(nb::module_ &m)
          [](const HalfSpace &self, Numbers points, Numbers forces)
          {
             return array(self.stresses(matrix(points, "points", -1, 3),
-                                       vector(forces, "forces", 3 * self.centres.rows())));
+                                       vector(forces, "forces", 3 * self.nodes())));
          },
          nb::arg("points"), nb::arg("forces"),
          "Stresses (m, 6) at points (m, 3) inside of the bodies under nodal forces {q; p}, (3 "
@@ -84,10 +101,9 @@ void bind_half_spaces(nb::module_ &m)
          "the one below.")
       .def(
          "resultant",
-         [](const HalfSpace &self, Numbers forces)
-         {
-            return array(Eigen::VectorXd(
-               self.resultant(vector(forces, "forces", 3 * self.centres.rows()))));
+         [](const HalfSpace &self, Numbers forces) {
+            return array(
+               Eigen::VectorXd(self.resultant(vector(forces, "forces", 3 * self.nodes()))));
          },
          nb::arg("forces"),
          "(6,), force and moment about x = y = 0 along x, y and z, that nodal forces {q; p}, "
@@ -97,7 +113,8 @@ void bind_half_spaces(nb::module_ &m)
          [](const HalfSpace &self, File name, const ReducedProblem &problem,
             const ContactState &state) { write_vtu(file(name), self, problem, state); },
          nb::arg("file"), nb::arg("problem"), nb::arg("state"),
-         "Writes a state for ParaView and others: a quadrilateral for each rectangle, with "
+         "Writes a state for ParaView and others: a quadrilateral or triangle for each cell, "
+         "with "
          "pressure, shear, slip, opening and state (NodeState). Numbered names, one for each "
          "state of a march, are a series.")
       .def_ro("material", &HalfSpace::material, "of the body above")
@@ -108,9 +125,24 @@ void bind_half_spaces(nb::module_ &m)
          "(2,), edges of every rectangle along x and y")
       .def_prop_ro(
          "centres", [](const HalfSpace &self) { return array(Eigen::MatrixXd(self.centres)); },
-         "(n, 2), of the rectangles")
+         "(n, 2), of the rectangles; (0, 2) where there are triangles")
+      .def_prop_ro(
+         "vertices",
+         [](const HalfSpace &self) { return array(Eigen::MatrixXd(self.vertices)); },
+         "(k, 2), of the triangles")
+      .def_prop_ro(
+         "triangles",
+         [](const HalfSpace &self) { return array<Integers>(Eigen::MatrixXi(self.triangles)); },
+         "(n, 3), their corners, rows of vertices")
+      .def_prop_ro(
+         "middles",
+         [](const HalfSpace &self) { return array(Eigen::MatrixXd(self.middles())); },
+         "(n, 2), centres of area of the rectangles or triangles")
+      .def_prop_ro(
+         "areas", [](const HalfSpace &self) { return array(self.areas()); },
+         "(n,), of the rectangles or triangles")
       .def_ro("turns", &HalfSpace::turns, "is the body above free to turn?")
-      .def_ro("ends", &HalfSpace::ends, "does a body end at the rim of the rectangles?");
+      .def_ro("ends", &HalfSpace::ends, "does a body end at the rim of the cells?");
 
    nb::class_<Heights>(
       m, "Heights",

@@ -157,6 +157,32 @@ def test_a_file_for_paraview(tmp_path):
         space.write_vtu(file, cattaneo.load_reduced_problem(ROOT / "problems" / "hertz.json"), state)
 
 
+def test_triangles_of_squares():
+    """Squares cut into triangles and squares: two discretisations of one rigid sphere, whose closed form has the approach
+    a²/R (Hertz, for a rigid sphere without friction). The mean gap over a triangle is exact by the middles of its edges."""
+    a, radius = 1.0, 20.0
+    load = 8 / 3 / (1 - 0.3) * a**3 / radius
+    places = np.linspace(-1.2, 1.2, 13)
+    x, y = np.meshgrid(places, places)
+    vertices = np.column_stack([x.ravel(), y.ravel()])
+    first = np.arange(13 * 12).reshape(12, 13)[:, :-1].ravel()
+    triangles = np.concatenate([np.column_stack([first, first + 1, first + 14]), np.column_stack([first, first + 14, first + 13])])
+    space = cattaneo.HalfSpace(MATERIAL, vertices=vertices, triangles=triangles)
+    assert space.areas == pytest.approx(0.02) and space.centres.shape == (0, 2) and (space.triangles == triangles).all()
+    assert space.middles == pytest.approx(vertices[triangles].mean(axis=1))
+    edges = (vertices[triangles] + vertices[np.roll(triangles, 1, axis=1)]) / 2
+    problem = space.problem(gap=(edges**2).sum(axis=2).mean(axis=1) / (2 * radius))
+    problem.friction = 0.0
+    state = cattaneo.march(problem, [{}, {"P": load}], settings=ONE).state
+    approach = cattaneo.conjugates(problem, state)[problem.loads.index("P")]
+    assert approach == pytest.approx(a**2 / radius, rel=2e-3)
+    assert cattaneo.readout.contact_areas(problem, state).contact.area == pytest.approx(np.pi * a**2, abs=np.pi * a * 0.1)
+    with pytest.raises(cattaneo.InputError, match="rectangles have centres and no size"):
+        cattaneo.HalfSpace(MATERIAL, centres=[[0.0, 0.0]])
+    with pytest.raises(cattaneo.InputError, match="not whole numbers"):
+        cattaneo.HalfSpace(MATERIAL, vertices=vertices, triangles=triangles + 0.5)
+
+
 def test_what_is_refused():
     good = {"size": 0.1, "centres": squares(3, 0.1)}
     cattaneo.HalfSpace(MATERIAL, **good)

@@ -4,6 +4,7 @@
 #include <cattaneo/readout/areas.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace cattaneo_test
 {
@@ -45,6 +46,65 @@ HalfSpace contact_of(const Material &material, std::optional<Material> other, do
    contact.size = {edge, edge};
    contact.centres = std::move(centres);
    return contact;
+}
+
+HalfSpace disc_of_triangles(const Material &material, std::optional<Material> other, int rings,
+                            double radius)
+{
+   HalfSpace contact;
+   contact.material = material;
+   contact.other = std::move(other);
+   contact.vertices.resize(1 + 3 * rings * (rings + 1), 2);
+   contact.triangles.resize(6 * rings * rings, 3);
+   // Ring k has 6 k vertices, the first of which is number 1 + 3 k (k - 1).
+   const auto vertex = [](int ring, int place)
+   { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1) + place % (6 * ring); };
+   std::mt19937 random(1);
+   const auto moved = [&]
+   { return 0.2 * (2 * static_cast<double>(random()) / 4294967295 - 1); };
+   contact.vertices.row(0).setZero();
+   Index count = 0;
+   for (int ring = 1; ring <= rings; ++ring)
+   {
+      for (int place = 0; place < 6 * ring; ++place)
+      {
+         const bool inner = ring < rings;
+         const double r = radius * (ring + (inner ? moved() : 0)) / rings,
+                      angle = M_PI / 3 * (place + (inner ? moved() : 0)) / ring;
+         contact.vertices.row(vertex(ring, place)) << r * std::cos(angle), r * std::sin(angle);
+      }
+      // Between this ring and the one within it, by sixths.
+      for (int sixth = 0; sixth < 6; ++sixth)
+      {
+         const int out = sixth * ring, in = sixth * (ring - 1);
+         for (int i = 0; i < ring; ++i)
+         {
+            contact.triangles.row(count++) << vertex(ring - 1, in + i), vertex(ring, out + i),
+               vertex(ring, out + i + 1);
+            if (i == ring - 1) { continue; }
+            contact.triangles.row(count++) << vertex(ring - 1, in + i),
+               vertex(ring, out + i + 1), vertex(ring - 1, in + i + 1);
+         }
+      }
+   }
+   return contact;
+}
+
+Eigen::VectorXd mean_square(const HalfSpace &contact)
+{
+   Eigen::VectorXd means = Eigen::VectorXd::Zero(contact.nodes());
+   for (Index i = 0; i < means.size(); ++i)
+   {
+      for (int k = 0; k < 3; ++k)
+      {
+         const Eigen::RowVector2d middle =
+            (contact.vertices.row(contact.triangles(i, k)) +
+             contact.vertices.row(contact.triangles(i, (k + 1) % 3))) /
+            2;
+         means[i] += middle.squaredNorm() / 3;
+      }
+   }
+   return means;
 }
 
 int number_of(const ContactState &state, NodeState status)

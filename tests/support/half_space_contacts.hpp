@@ -20,6 +20,16 @@ cattaneo::HalfSpace contact_of(const cattaneo::Material &material,
                                std::optional<cattaneo::Material> other, double edge,
                                Places centres);
 
+/** A disc about x = y = 0, cut into 6 m² triangles between m rings, of which the inner vertices
+    are moved by up to a fifth of the way between rings, always in the same way. Without another
+    body it is rigid. */
+cattaneo::HalfSpace disc_of_triangles(const cattaneo::Material &material,
+                                      std::optional<cattaneo::Material> other, int rings,
+                                      double radius);
+
+/// Means of x² + y² over the triangles: exact by the middles of their edges.
+Eigen::VectorXd mean_square(const cattaneo::HalfSpace &contact);
+
 int number_of(const cattaneo::ContactState &state, cattaneo::NodeState status);
 int number_closed(const cattaneo::ContactState &state);
 double conjugate(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state,

@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <array>
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/polygon_integrals.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -19,53 +23,6 @@ using Eigen::VectorXd;
 
 namespace
 {
-
-/// More digits, because the four corners of a rectangle cancel far away from it.
-using Long = long double;
-
-/// x asinh(y/|x|), which is x ln(y + r) but for x ln|x|.
-Long half_of_love(Long x, Long y)
-{
-   return x == 0 ? 0 : x * std::asinh(y / std::abs(x));
-}
-
-/// ∂²/∂x∂y of it is x/r².
-Long half_of_coupling(Long x, Long y)
-{
-   const Long square = x * x + y * y;
-   return (y == 0 ? 0 : y * std::log(square) / 2) + (x == 0 ? 0 : x * std::atan(y / x));
-}
-
-/// Integrals over a rectangle of functions of the way from its points to another point.
-struct RectangleIntegrals
-{
-   Long xx = 0; ///< x²/r³
-   Long yy = 0; ///< y²/r³; both together are 1/r
-   Long xy = 0; ///< x y/r³
-   Long x = 0;  ///< x/r²
-   Long y = 0;  ///< y/r²
-};
-
-/// @a way: from the centre of the rectangle to the point.
-RectangleIntegrals integrals(const Vector2d &size, const Vector2d &way)
-{
-   RectangleIntegrals sum;
-   for (const int right : {-1, 1})
-   {
-      for (const int upper : {-1, 1})
-      {
-         const Long x = way[0] + right * static_cast<Long>(size[0]) / 2,
-                    y = way[1] + upper * static_cast<Long>(size[1]) / 2;
-         const int sign = right * upper;
-         sum.xx += sign * half_of_love(y, x);
-         sum.yy += sign * half_of_love(x, y);
-         sum.xy -= sign * std::hypot(x, y);
-         sum.x += sign * half_of_coupling(x, y);
-         sum.y += sign * half_of_coupling(y, x);
-      }
-   }
-   return sum;
-}
 
 /// Of both bodies together: how their relative displacement follows from tractions.
 struct Compliance
@@ -91,10 +48,10 @@ struct Compliance
       coupling += side * unit * (0.5 - material.poisson);
    }
 
-   /// Displacements by uniform tractions on a rectangle.
-   Eigen::Matrix3d of(const RectangleIntegrals &I) const
+   /// Displacements by uniform tractions on a cell.
+   Eigen::Matrix3d of(const KernelIntegrals &I) const
    {
-      const auto own = [&](Long tangential)
+      const auto own = [&](MoreDigits tangential)
       { return static_cast<double>(direct * (I.xx + I.yy) + poisson * tangential); };
       const auto across = static_cast<double>(poisson * I.xy),
                  x = static_cast<double>(coupling * I.x),
@@ -126,6 +83,65 @@ std::vector<std::array<long, 2>> cells_of(const HalfSpace &contact)
    return cells;
 }
 
+/// The corners of one triangle, counter-clockwise.
+Polygon triangle_of(const HalfSpace &contact, Index i)
+{
+   Polygon corners;
+   for (const int vertex : contact.triangles.row(i))
+   {
+      corners.emplace_back(contact.vertices.row(vertex));
+   }
+   if (area(corners) < 0) { std::swap(corners[1], corners[2]); }
+   return corners;
+}
+
+/** The third corner of each triangle lies on the left of its edges, so that two triangles that
+    meet have their common edge once in each direction. The triangle of each directed edge. */
+using DirectedEdges = std::map<std::pair<int, int>, Index>;
+
+DirectedEdges edges_of(const HalfSpace &contact)
+{
+   DirectedEdges edges;
+   for (Index i = 0; i < contact.triangles.rows(); ++i)
+   {
+      Eigen::RowVector3i corners = contact.triangles.row(i);
+      Polygon polygon;
+      for (const int vertex : corners)
+      {
+         require(vertex >= 0 && vertex < contact.vertices.rows(), "half-space: triangle ", i,
+                 " has the vertex ", vertex, ", must be from 0 to ",
+                 contact.vertices.rows() - 1);
+         polygon.emplace_back(contact.vertices.row(vertex));
+      }
+      double longest = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+         longest = std::max(longest, (polygon[k] - polygon[(k + 1) % 3]).squaredNorm());
+      }
+      require(std::abs(area(polygon)) > 1e-12 * longest, "half-space: triangle ", i,
+              " has no area, its corners lie on a line");
+      if (area(polygon) < 0) { std::swap(corners[1], corners[2]); }
+      for (Index k = 0; k < 3; ++k)
+      {
+         const auto [found, first] = edges.try_emplace({corners[k], corners[(k + 1) % 3]}, i);
+         require(first, "half-space: the triangles ", found->second, " and ", i,
+                 " lie on the same side of the edge they share, they must not overlap");
+      }
+   }
+   return edges;
+}
+
+/// Triangles that have an edge alone.
+std::vector<Index> rim_of(const DirectedEdges &edges)
+{
+   std::set<Index> rim;
+   for (const auto &[edge, triangle] : edges)
+   {
+      if (edges.count({edge.second, edge.first}) == 0) { rim.insert(triangle); }
+   }
+   return {rim.begin(), rim.end()};
+}
+
 /// Cells that lack one of their four neighbours.
 std::vector<Index> rim_of(const std::vector<std::array<long, 2>> &cells)
 {
@@ -141,16 +157,45 @@ std::vector<Index> rim_of(const std::vector<std::array<long, 2>> &cells)
    return rim;
 }
 
+/// Displacement in the mean over triangles: rows and columns as below.
+MatrixXd flexibility_of_triangles(const HalfSpace &contact)
+{
+   const std::vector<Polygon> triangles = polygons_of(contact);
+   const VectorXd areas = contact.areas();
+   const Compliance compliance(contact);
+   const Index n = areas.size();
+   MatrixXd F(3 * n, 3 * n);
+   for (Index i = 0; i < n; ++i)
+   {
+      for (Index j = 0; j <= i; ++j)
+      {
+         const Eigen::Matrix3d influence =
+            compliance.of(integrals_over(triangles[i], triangles[j])) / (areas[i] * areas[j]);
+         for (Index a = 0; a < 3; ++a)
+         {
+            for (Index b = 0; b < 3; ++b)
+            {
+               F(a * n + i, b * n + j) = F(b * n + j, a * n + i) = influence(a, b);
+            }
+         }
+      }
+   }
+   return F;
+}
+
 /** Flexibility of nodal forces: rows and columns of the n first tangents, then of the second
     ones, then of the normals. Rectangles that lie the same way from each other have the same
     influence, which is integrated once; with the opposite way it is the transposed one, so that
     the matrix is symmetric to the last bit. */
 MatrixXd flexibility(const HalfSpace &contact)
 {
+   if (contact.triangles.rows() > 0) { return flexibility_of_triangles(contact); }
    const std::vector<std::array<long, 2>> cells = cells_of(contact);
    const Compliance compliance(contact);
    const auto n = static_cast<Index>(cells.size());
    MatrixXd F(3 * n, 3 * n);
+   const Vector2d half = contact.size / 2;
+   const Polygon cell{-half, {half[0], -half[1]}, half, {-half[0], half[1]}};
    std::unordered_map<unsigned long, Eigen::Matrix3d> known;
    for (Index i = 0; i < n; ++i)
    {
@@ -165,7 +210,7 @@ MatrixXd flexibility(const HalfSpace &contact)
          {
             const Vector2d way(static_cast<double>(std::labs(x)) * contact.size[0],
                                static_cast<double>(std::labs(y)) * contact.size[1]);
-            influence = compliance.of(integrals(contact.size, way)) / contact.size.prod();
+            influence = compliance.of(integrals_at(way, cell)) / contact.size.prod();
          }
          // Mirrored into the quadrant of this way; on an axis what is odd is zero.
          const Eigen::Vector3d sign((x > 0) - (x < 0), (y > 0) - (y < 0), 1);
@@ -197,13 +242,13 @@ struct FreeStiffness
       DenseCholesky factor;
       require(factor.compute(std::move(F)),
               "half-space: its flexibility is not positive definite to round-off; its "
-              "rectangles must be fewer, or their edges less unequal");
+              "cells must be fewer, or their edges less unequal");
       K = factor.inverse();
       // Energy ½ (u - R y)ᵀ S (u - R y) - Gᵀ y of the far motions y, which nothing holds.
       const MatrixXd held_back = factor.solved(motions);
       DenseCholesky resistance;
       require(resistance.compute(motions.transpose() * held_back),
-              "half-space: nothing resists one of its motions, there must be more rectangles");
+              "half-space: nothing resists one of its motions, there must be more cells");
       moved = resistance.inverse();
       clamped = -held_back * moved;
       MatrixXd half = held_back.transpose();
@@ -223,33 +268,83 @@ void HalfSpace::validate() const
       require(each->state == PlaneState::strain,
               "half-space: its material is one of plane stress, must be of plane strain");
    }
+   require(centres.rows() > 0 || triangles.rows() > 0,
+           "half-space: there are no rectangles and no triangles");
+   if (triangles.rows() > 0)
+   {
+      require(centres.rows() == 0, "half-space: there are ", centres.rows(), " rectangles and ",
+              triangles.rows(), " triangles, must be of one kind");
+      require(vertices.allFinite(),
+              "half-space: a vertex of the triangles has an entry that is not finite");
+      edges_of(*this);
+      return;
+   }
    require(size.allFinite() && size.minCoeff() > 0, "half-space: the edges of its rectangles ",
            "are ", size, ", must be positive");
-   require(centres.rows() > 0, "half-space: there are no rectangles");
    require(centres.allFinite(),
            "half-space: the centre of a rectangle has an entry that is not finite");
    cells_of(*this);
 }
 
+Index HalfSpace::nodes() const
+{
+   return std::max(centres.rows(), triangles.rows());
+}
+
+VectorXd HalfSpace::areas() const
+{
+   VectorXd areas = VectorXd::Constant(nodes(), size.prod());
+   for (Index i = 0; i < triangles.rows(); ++i) { areas[i] = area(triangle_of(*this, i)); }
+   return areas;
+}
+
+Eigen::MatrixX2d HalfSpace::middles() const
+{
+   Eigen::MatrixX2d middles = centres;
+   middles.conservativeResize(nodes(), 2);
+   for (Index i = 0; i < triangles.rows(); ++i)
+   {
+      middles.row(i) = vertices(triangles.row(i), Eigen::all).colwise().mean();
+   }
+   return middles;
+}
+
+std::vector<Polygon> polygons_of(const HalfSpace &contact)
+{
+   std::vector<Polygon> polygons;
+   for (Index i = 0; i < contact.triangles.rows(); ++i)
+   {
+      polygons.push_back(triangle_of(contact, i));
+   }
+   const Vector2d half = contact.size / 2, other(half[0], -half[1]);
+   for (const Vector2d centre : contact.centres.rowwise())
+   {
+      polygons.push_back({centre - half, centre + other, centre + half, centre - other});
+   }
+   return polygons;
+}
+
 ReducedProblem HalfSpace::problem(const VectorXd &gap) const
 {
    validate();
-   const Index n = centres.rows(), slips = 2 * n, rows = 3 * n;
-   require(gap.size() == n, "half-space: ", gap.size(), " gaps for ", n,
-           " rectangles, must be one for each");
-   require(n > 1, "half-space: one rectangle alone, must be at least two");
+   const Index n = nodes(), slips = 2 * n, rows = 3 * n;
+   const std::string kind = triangles.rows() > 0 ? "triangle" : "rectangle";
+   require(gap.size() == n, "half-space: ", gap.size(), " gaps for ", n, " ", kind,
+           "s, must be one for each");
+   require(n > 1, "half-space: one ", kind, " alone, must be at least two");
 
    // Motions of the far body, each along its force. Those within the plane come first.
    const std::vector<std::string> names = turns ? std::vector<std::string>{"Q1", "Q2", "T", "P"}
                                                 : std::vector<std::string>{"Q1", "Q2", "P"};
    const auto count = static_cast<Index>(names.size());
    MatrixXd motions = MatrixXd::Zero(rows, count);
+   const Eigen::MatrixX2d places = middles();
    motions.col(0).head(n).setOnes();
    motions.col(1).segment(n, n).setOnes();
    if (turns)
    {
-      motions.col(2).head(n) = -centres.col(1);
-      motions.col(2).segment(n, n) = centres.col(0);
+      motions.col(2).head(n) = -places.col(1);
+      motions.col(2).segment(n, n) = places.col(0);
    }
    motions.col(count - 1).tail(n).setConstant(-1);
 
@@ -285,10 +380,13 @@ ReducedProblem HalfSpace::problem(const VectorXd &gap) const
    }
    result.gap = gap;
    result.friction = VectorXd::Zero(n);
-   result.weights = VectorXd::Constant(n, size.prod());
+   result.weights = areas();
    result.position = MatrixXd::Zero(n, 3);
-   result.position.leftCols(2) = centres;
-   if (!ends) { result.rim = rim_of(cells_of(*this)); }
+   result.position.leftCols(2) = places;
+   if (!ends)
+   {
+      result.rim = triangles.rows() > 0 ? rim_of(edges_of(*this)) : rim_of(cells_of(*this));
+   }
    result.rigid_motions = thin_qr(motions).Q;
    join_coupling(result);
    result.validate();
@@ -298,11 +396,11 @@ ReducedProblem HalfSpace::problem(const VectorXd &gap) const
 Eigen::Matrix<double, 6, 1> HalfSpace::resultant(const VectorXd &forces) const
 {
    validate();
-   const Index n = centres.rows();
+   const Index n = nodes();
    require(forces.size() == 3 * n, "half-space: ", forces.size(), " nodal forces, must be ",
-           3 * n, ", three for each rectangle");
+           3 * n, ", three for each cell");
    const auto q1 = forces.head(n), q2 = forces.segment(n, n), p = forces.tail(n);
-   const auto x = centres.col(0), y = centres.col(1);
+   const VectorXd x = middles().col(0), y = middles().col(1);
    Eigen::Matrix<double, 6, 1> sum;
    sum << q1.sum(), q2.sum(), p.sum(), y.dot(p), -x.dot(p), x.dot(q2) - y.dot(q1);
    return sum;
@@ -312,22 +410,25 @@ Eigen::MatrixX3d HalfSpace::displacements(const Eigen::MatrixX2d &points,
                                           const VectorXd &forces) const
 {
    validate();
-   const Index n = centres.rows();
+   const Index n = nodes();
    require(forces.size() == 3 * n, "half-space: ", forces.size(), " nodal forces, must be ",
-           3 * n, ", three for each rectangle");
+           3 * n, ", three for each cell");
    require(forces.allFinite(), "half-space: a nodal force is not finite");
    require(points.allFinite(), "half-space: a point of the surface has an entry that is not "
                                "finite");
    const Compliance compliance(*this);
-   const Eigen::MatrixX3d tractions =
-      Eigen::Map<const Eigen::MatrixX3d>(forces.data(), n, 3) / size.prod();
+   const std::vector<Polygon> cells = polygons_of(*this);
+   const Eigen::MatrixX3d tractions = areas().cwiseInverse().asDiagonal() *
+                                      Eigen::Map<const Eigen::MatrixX3d>(forces.data(), n, 3);
    Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(points.rows(), 3);
    for (Index i = 0; i < points.rows(); ++i)
    {
       for (Index j = 0; j < n; ++j)
       {
-         const Vector2d way = points.row(i) - centres.row(j);
-         result.row(i) += tractions.row(j) * compliance.of(integrals(size, way)).transpose();
+         result.row(i) +=
+            tractions.row(j) *
+            compliance.of(integrals_at(points.row(i), cells[static_cast<std::size_t>(j)]))
+               .transpose();
       }
    }
    return result;

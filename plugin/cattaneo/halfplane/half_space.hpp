@@ -8,36 +8,49 @@ namespace cattaneo
 {
 
 /** Two elastic half-spaces that meet in the plane z = 0, or one on a rigid body: frictional
-    contact in three dimensions without a mesh. Tractions are uniform on equal rectangles, and
-    the laws of contact hold at their centres [Kalker 1990]. Displacements are
-    Boussinesq's and Cerruti's, integrated over each rectangle in closed form [Love 1929], with
-    the coupling between normal and tangential directions. They are relative to infinity.
+    contact in three dimensions without a mesh of the bodies. The surface that may touch is cut
+    into cells on which tractions are uniform: equal rectangles, where the laws of contact hold
+    at the centres [Kalker 1990], or triangles of any size, where they hold in the mean over
+    each of them, so that the flexibility is symmetric. Displacements are Boussinesq's and
+    Cerruti's, integrated over each cell in closed form [Love 1929], with the coupling between
+    normal and tangential directions. They are relative to infinity.
 
-    A rectangle is a contact node: the first tangent is x, the second y, and the normal z, into
-    the body above. Forces are those that this body takes, displacements its own less those of
-    the body below. */
+    A cell is a contact node: the first tangent is x, the second y, and the normal z, into the
+    body above. Forces are those that this body takes, displacements its own less those of the
+    body below. */
 struct HalfSpace
 {
    Material material;             ///< of the body above; plane strain
    std::optional<Material> other; ///< of the body below, plane strain; none: it is rigid
    Eigen::Vector2d size{1, 1};    ///< edges of each rectangle along x and y, > 0
    /// Of the n rectangles that may touch, n × 2. They lie on one grid, that is they differ by
-   /// whole edges, and may be any of its cells, in any order.
+   /// whole edges, and may be any of its cells, in any order. None where there are triangles.
    Eigen::MatrixX2d centres;
+   Eigen::MatrixX2d vertices; ///< x and y, of the triangles
+   /// Of the n triangles that may touch, n × 3: their corners, rows of `vertices` from 0, in
+   /// either sense. Two of them that share an edge share its two vertices.
+   Eigen::MatrixX3i triangles;
    /// Is the body above free to turn about the normal through x = y = 0? It never tilts.
    bool turns = false;
-   /// Does a body end at the rim of the rectangles, as a flat punch does? Else contact that is
+   /// Does a body end at the rim of the cells, as a flat punch does? Else contact that is
    /// compressed there is cut off, and reports say so.
    bool ends = false;
 
    /// InputError for a material that is none or of plane stress, edges that are not positive,
-   /// or rectangles that do not lie on one grid, to 1e-9 of an edge, or are there twice.
+   /// rectangles that do not lie on one grid, to 1e-9 of an edge, or are there twice, triangles
+   /// without area (1e-12 of their longest edge squared), of vertices that there are not, or of
+   /// which two lie on the same side of an edge, or both kinds of cells.
    void validate() const;
 
-   /** The frictional contact of these bodies with a gap of each rectangle (size n), measured at
-       its centre, without friction until set_friction(). It has two tangential components,
-       areas as weights, centres as positions (n × 3, z = 0), and unless a body `ends` there
-       the rectangles that lack one of four neighbours as rim.
+   Eigen::Index nodes() const;       ///< number n of the cells
+   Eigen::VectorXd areas() const;    ///< of the cells
+   Eigen::MatrixX2d middles() const; ///< of the cells, n × 2: centres of area
+
+   /** The frictional contact of these bodies with a gap of each cell (size n), measured at the
+       centre of a rectangle, or the mean over a triangle, without friction until
+       set_friction(). It has two tangential components, areas as weights, middles as positions
+       (n × 3, z = 0), and unless a body `ends` there as rim the rectangles that lack one of
+       four neighbours or triangles that have an edge alone.
 
        The body above goes where its far forces take it. Patterns "P" (towards the other body),
        "Q1" and "Q2" (along x and y) have a unit force each, and, if it `turns`, "T" a unit
@@ -48,27 +61,26 @@ struct HalfSpace
        tangential directions: between equal materials, and where the combined constant
        (1 - 2ν)/G of both bodies is the same.
 
-       InputError as of validate(), for a gap of another size, one rectangle alone, or
-       rectangles so many and long that their flexibility is not positive definite. */
+       InputError as of validate(), for a gap of another size, one cell alone, or cells so many
+       and long that their flexibility is not positive definite. */
    ReducedProblem problem(const Eigen::VectorXd &gap) const;
 
-   /** Displacements at points of the surface (m × 2) under nodal forces {q; p} of the
-       rectangles (size 3n): those of the body above less those of the body below, m × 3 along
-       x, y and z. The rigid motions of the far bodies are no part of them. InputError as of
-       validate(), or for other sizes. */
+   /** Displacements at points of the surface (m × 2) under nodal forces {q; p} of the cells
+       (size 3n): those of the body above less those of the body below, m × 3 along x, y and z.
+       The rigid motions of the far bodies are no part of them. InputError as of validate(), or
+       for other sizes. */
    Eigen::MatrixX3d displacements(const Eigen::MatrixX2d &points,
                                   const Eigen::VectorXd &forces) const;
 
    /// Force and moment about x = y = 0, along x, y and z, that nodal forces {q; p} of the
-   /// rectangles (size 3n) are on the body above. InputError as of validate(), or for another
-   /// size.
+   /// cells (size 3n) are on the body above. InputError as of validate(), or for another size.
    Eigen::Matrix<double, 6, 1> resultant(const Eigen::VectorXd &forces) const;
 
-   /** Stresses at points (m × 3) inside of the bodies under nodal forces {q; p} of the
-       rectangles (size 3n): m × 6, xx, yy, zz, yz, zx and xy, positive in tension. Points with
-       z > 0 lie in the body above, with z < 0 in the one below, at z = 0 just inside of the
-       body above. On an edge of a rectangle at z = 0 stresses jump or have no limit. InputError
-       as of validate(), for other sizes, or for a point in a rigid body. */
+   /** Stresses at points (m × 3) inside of the bodies under nodal forces {q; p} of the cells
+       (size 3n): m × 6, xx, yy, zz, yz, zx and xy, positive in tension. Points with z > 0 lie
+       in the body above, with z < 0 in the one below, at z = 0 just inside of the body above.
+       On an edge of a cell at z = 0 stresses jump or have no limit. InputError as of
+       validate(), for other sizes, or for a point in a rigid body. */
    Eigen::Matrix<double, Eigen::Dynamic, 6> stresses(const Eigen::MatrixX3d &points,
                                                      const Eigen::VectorXd &forces) const;
 };

@@ -1,12 +1,13 @@
 #include <array>
 #include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/polygon_integrals.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
-// Love's potentials of uniform tractions on a rectangle. With R the distance of a point inside
-// from one of the surface, φ = ln(R + z) and Ω = z ln(R + z) - R = ∫ φ dz are harmonic. Their
-// integrals over a rectangle are differences between its corners, and so are the derivatives
-// that stresses need.
+// Love's potentials of uniform tractions on a polygon. With R the distance of a point inside
+// from one of the surface, φ = ln(R + z) and Ω = z ln(R + z) - R = ∫ φ dz are harmonic. A
+// derivative along the surface of their integrals over a polygon is an integral along its edges
+// (divergence theorem), and so differences between their ends give what stresses need.
 
 namespace cattaneo
 {
@@ -18,21 +19,21 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// More digits, because the four corners cancel far away from the rectangle.
-using Digits = long double;
+using Matrix3 = Eigen::Matrix<MoreDigits, 3, 3>;
+using Vector3 = Eigen::Matrix<MoreDigits, 3, 1>;
 
 /// ln(R + t) where a² = R² - t², which keeps its digits for t < 0.
-Digits log_sum(Digits R, Digits t, Digits a_squared)
+MoreDigits log_sum(MoreDigits R, MoreDigits t, MoreDigits a_squared)
 {
    return t < 0 ? std::log(a_squared / (R - t)) : std::log(R + t);
 }
 /// 1/(R + t) likewise.
-Digits inverse_sum(Digits R, Digits t, Digits a_squared)
+MoreDigits inverse_sum(MoreDigits R, MoreDigits t, MoreDigits a_squared)
 {
    return t < 0 ? (R - t) / a_squared : 1 / (R + t);
 }
 /// ∫ s/(R (R + z)) dt
-Digits angle(Digits s, Digits t, Digits z, Digits R)
+MoreDigits angle(MoreDigits s, MoreDigits t, MoreDigits z, MoreDigits R)
 {
    return s == 0 ? 0 : std::atan(t / s) - std::atan(z * t / (s * R));
 }
@@ -44,7 +45,29 @@ enum Axis
    along_z
 };
 
-/// Derivatives of the potentials' integrals over a rectangle, at a point.
+/// Antiderivatives along an edge, at one of its ends, of derivatives of the potentials. Axes:
+/// across the edge (s), along it (t), and z.
+struct EdgeEnd
+{
+   Vector3 phi_first;
+   Matrix3 phi_second, omega_second;
+
+   EdgeEnd(MoreDigits s, MoreDigits t, MoreDigits z)
+   {
+      const MoreDigits R = std::sqrt(s * s + t * t + z * z), rest = s * s + z * z,
+                       log_t = log_sum(R, t, rest), by_t = inverse_sum(R, t, rest),
+                       by_z = 1 / (R + z);
+      phi_first << angle(s, t, z, R), std::log(R + z), log_t;
+      // The sum over the axes twice is zero, as both potentials are harmonic.
+      const MoreDigits tt = t / R * by_z, zz = z / R * by_t, st = s / R * by_z,
+                       sz = s / R * by_t, tz = 1 / R;
+      phi_second << -tt - zz, st, sz, st, tt, tz, sz, tz, zz;
+      // ∂Ω/∂z = φ: what has to do with z is known from φ.
+      omega_second << t * by_z - log_t, -s * by_z, 0, -s * by_z, -t * by_z, 0, 0, 0, 0;
+   }
+};
+
+/// Derivatives of the potentials' integrals over a polygon, at a point.
 struct PotentialDerivatives
 {
    using Third = std::array<Matrix3d, 3>; ///< one matrix for each first axis
@@ -52,105 +75,67 @@ struct PotentialDerivatives
    Third phi_third{Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
    Third omega_third{Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
 
-   /// @a way: from the centre of the rectangle to the point, z >= 0.
-   PotentialDerivatives(const Eigen::Vector2d &size, const Vector3d &way)
+   /// @a point: z >= 0.
+   PotentialDerivatives(const Polygon &polygon, const Vector3d &point)
    {
-      for (const int right : {-1, 1})
+      Matrix3 phi_2 = Matrix3::Zero();
+      std::array<Matrix3, 2> phi_3{phi_2, phi_2}, omega_3{phi_2, phi_2};
+      for (std::size_t k = 0; k < polygon.size(); ++k)
       {
-         for (const int upper : {-1, 1})
+         Vector3 from = point.cast<MoreDigits>(), to = from;
+         from.head(2) -= polygon[k].cast<MoreDigits>();
+         to.head(2) -= polygon[(k + 1) % polygon.size()].cast<MoreDigits>();
+         const Vector3 along = (from - to).normalized(), normal(along[1], -along[0], 0);
+         Matrix3 axes;
+         axes << normal, along, Vector3::UnitZ();
+         const MoreDigits s = normal.dot(from);
+         const EdgeEnd first(s, along.dot(from), from[2]), last(s, along.dot(to), to[2]);
+         phi_2 += normal * (axes * (last.phi_first - first.phi_first)).transpose();
+         const Matrix3 phi = axes * (last.phi_second - first.phi_second) * axes.transpose(),
+                       omega =
+                          axes * (last.omega_second - first.omega_second) * axes.transpose();
+         for (const std::size_t i : {0, 1})
          {
-            add_corner(way[0] + right * static_cast<Digits>(size[0]) / 2,
-                       way[1] + upper * static_cast<Digits>(size[1]) / 2, way[2],
-                       right * upper);
+            phi_3[i] += normal[static_cast<Index>(i)] * phi;
+            omega_3[i] += normal[static_cast<Index>(i)] * omega;
          }
       }
-      close();
+      close(phi_2, phi_3, omega_3);
    }
 
 private:
-   /// What the corners tell: the rest follows.
-   struct Sums
+   /// Derivatives whose first axis is z follow from the others: their order does not matter,
+   /// both potentials are harmonic, and ∂Ω/∂z = φ.
+   void close(Matrix3 phi_2, const std::array<Matrix3, 2> &phi_3,
+              const std::array<Matrix3, 2> &omega_3)
    {
-      Digits xx = 0, yy = 0, xy = 0, xz = 0, yz = 0;                        ///< of φ
-      Digits xxy = 0, xyy = 0, xyz = 0, xxz = 0, yyz = 0, xzz = 0, yzz = 0; ///< of φ
-      Digits omega_xxx = 0, omega_xxy = 0, omega_xyy = 0, omega_yyy = 0;    ///< of Ω
-   };
-   Sums sums_;
-
-   void add_corner(Digits s, Digits t, Digits z, int sign)
-   {
-      const Digits R = std::sqrt(s * s + t * t + z * z), r_s = t * t + z * z,
-                   r_t = s * s + z * z;
-      const Digits log_s = log_sum(R, s, r_s), log_t = log_sum(R, t, r_t),
-                   by_s = inverse_sum(R, s, r_s), by_t = inverse_sum(R, t, r_t),
-                   by_z = 1 / (R + z);
-      sums_.xx += sign * angle(s, t, z, R);
-      sums_.yy += sign * angle(t, s, z, R);
-      sums_.xy += sign * std::log(R + z);
-      sums_.xz += sign * log_t;
-      sums_.yz += sign * log_s;
-      sums_.xxy += sign * s / R * by_z;
-      sums_.xyy += sign * t / R * by_z;
-      sums_.xyz += sign / R;
-      sums_.xxz += sign * s / R * by_t;
-      sums_.yyz += sign * t / R * by_s;
-      sums_.xzz += sign * z / R * by_t;
-      sums_.yzz += sign * z / R * by_s;
-      sums_.omega_xxx += sign * (t * by_z - log_t);
-      sums_.omega_xxy -= sign * s * by_z;
-      sums_.omega_xyy -= sign * t * by_z;
-      sums_.omega_yyy += sign * (s * by_z - log_s);
-   }
-
-   static void set(Third &third, Digits value, int i, int j, int k)
-   {
-      const auto entry = static_cast<double>(value);
-      for (const auto &[a, b, c] :
-           {std::array<int, 3>{i, j, k}, {i, k, j}, {j, i, k}, {j, k, i}, {k, i, j}, {k, j, i}})
+      phi_2.row(along_z) << phi_2(along_x, along_z), phi_2(along_y, along_z),
+         -phi_2(along_x, along_x) - phi_2(along_y, along_y);
+      phi_second = phi_2.cast<double>();
+      const Matrix3 &x = phi_3[along_x], &y = phi_3[along_y];
+      Matrix3 z;
+      z << x(along_z, along_x), x(along_z, along_y), x(along_z, along_z), //
+         y(along_z, along_x), y(along_z, along_y), y(along_z, along_z),   //
+         x(along_z, along_z), y(along_z, along_z), -x(along_x, along_z) - y(along_y, along_z);
+      phi_third[along_x] = x.cast<double>();
+      phi_third[along_y] = y.cast<double>();
+      phi_third[along_z] = z.cast<double>();
+      for (const std::size_t i : {along_x, along_y})
       {
-         third[static_cast<std::size_t>(a)](b, c) = entry;
+         omega_third[i] = omega_3[i].cast<double>();
+         omega_third[i].row(along_z) = omega_third[i].col(along_z).transpose() =
+            phi_second.row(static_cast<Index>(i));
       }
-   }
-
-   /// The sums over the axes twice are zero, as both potentials are harmonic, and ∂Ω/∂z = φ.
-   void close()
-   {
-      const Sums &I = sums_;
-      const auto symmetric = [&](int i, int j, Digits value)
-      { phi_second(i, j) = phi_second(j, i) = static_cast<double>(value); };
-      symmetric(along_x, along_x, I.xx);
-      symmetric(along_y, along_y, I.yy);
-      symmetric(along_z, along_z, -I.xx - I.yy);
-      symmetric(along_x, along_y, I.xy);
-      symmetric(along_x, along_z, I.xz);
-      symmetric(along_y, along_z, I.yz);
-      set(phi_third, -I.xyy - I.xzz, along_x, along_x, along_x);
-      set(phi_third, I.xxy, along_x, along_x, along_y);
-      set(phi_third, I.xyy, along_x, along_y, along_y);
-      set(phi_third, -I.xxy - I.yzz, along_y, along_y, along_y);
-      set(phi_third, I.xyz, along_x, along_y, along_z);
-      set(phi_third, I.xxz, along_x, along_x, along_z);
-      set(phi_third, I.yyz, along_y, along_y, along_z);
-      set(phi_third, I.xzz, along_x, along_z, along_z);
-      set(phi_third, I.yzz, along_y, along_z, along_z);
-      set(phi_third, -I.xxz - I.yyz, along_z, along_z, along_z);
-      set(omega_third, I.omega_xxx, along_x, along_x, along_x);
-      set(omega_third, I.omega_xxy, along_x, along_x, along_y);
-      set(omega_third, I.omega_xyy, along_x, along_y, along_y);
-      set(omega_third, I.omega_yyy, along_y, along_y, along_y);
-      for (int i = 0; i < 3; ++i)
-      {
-         for (int j = 0; j < 3; ++j) { set(omega_third, phi_second(i, j), i, j, along_z); }
-      }
+      omega_third[along_z] = phi_second;
    }
 };
 
-/// Stress of a half-space z >= 0 under uniform tractions {q; p} on a rectangle of its surface.
-Matrix3d stress(const Material &material, const Eigen::Vector2d &size, const Vector3d &way,
+/// Stress of a half-space z >= 0 under uniform tractions {q; p} on a polygon of its surface.
+Matrix3d stress(const Material &material, const Polygon &polygon, const Vector3d &point,
                 const Vector3d &traction)
 {
-   const PotentialDerivatives I(size, way);
-   const double nu = material.poisson, z = way[2];
+   const PotentialDerivatives I(polygon, point);
+   const double nu = material.poisson, z = point[2];
    // [Love 1929], [Johnson 1985] 3.9: 4πG u = 2 ∂(F, G)/∂z - grad H + 2ν grad ψ1 - z grad ψ
    // along the surface, ∂H/∂z + (1 - 2ν) ψ - z ∂ψ/∂z along z. F, G, H are φ times the
    // tractions.
@@ -182,13 +167,14 @@ Eigen::Matrix<double, Eigen::Dynamic, 6>
 HalfSpace::stresses(const Eigen::MatrixX3d &points, const Eigen::VectorXd &forces) const
 {
    validate();
-   const Index n = centres.rows();
+   const Index n = nodes();
    require(forces.size() == 3 * n, "half-space: ", forces.size(), " nodal forces, must be ",
-           3 * n, ", three for each rectangle");
+           3 * n, ", three for each cell");
    require(forces.allFinite(), "half-space: a nodal force is not finite");
    require(points.allFinite(), "half-space: a point has an entry that is not finite");
-   const Eigen::MatrixX3d tractions =
-      Eigen::Map<const Eigen::MatrixX3d>(forces.data(), n, 3) / size.prod();
+   const std::vector<Polygon> cells = polygons_of(*this);
+   const Eigen::MatrixX3d tractions = areas().cwiseInverse().asDiagonal() *
+                                      Eigen::Map<const Eigen::MatrixX3d>(forces.data(), n, 3);
    Eigen::Matrix<double, Eigen::Dynamic, 6> result(points.rows(), 6);
    for (Index i = 0; i < points.rows(); ++i)
    {
@@ -201,9 +187,8 @@ HalfSpace::stresses(const Eigen::MatrixX3d &points, const Eigen::VectorXd &force
       for (Index j = 0; j < n; ++j)
       {
          if (tractions.row(j).isZero(0)) { continue; }
-         Vector3d way = points.row(i);
-         way.head(2) -= centres.row(j);
-         sum += stress(above ? material : *other, size, way.cwiseProduct(side),
+         sum += stress(above ? material : *other, cells[static_cast<std::size_t>(j)],
+                       points.row(i).transpose().cwiseProduct(side),
                        sign.cwiseProduct(tractions.row(j).transpose()));
       }
       sum = (side.asDiagonal() * sum * side.asDiagonal()).eval();

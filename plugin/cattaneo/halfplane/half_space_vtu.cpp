@@ -1,5 +1,6 @@
 #include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/halfplane/half_space_vtu.hpp>
+#include <cattaneo/halfplane/polygon_integrals.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <sstream>
@@ -44,42 +45,44 @@ void write_vtu(const std::string &file, const HalfSpace &contact, const ReducedP
                const ContactState &state)
 {
    contact.validate();
-   const Index n = contact.centres.rows();
-   require(problem.position.rows() == n && problem.position.leftCols(2) == contact.centres &&
+   const Index n = contact.nodes();
+   require(problem.position.rows() == n && problem.position.leftCols(2) == contact.middles() &&
               problem.components() == 2,
            "VTU file '", file, "': the reduced problem is not that of the half-spaces");
    state.validate(problem);
 
-   // Corners run round each rectangle, which has its own ones.
-   Eigen::MatrixX3d corners = Eigen::MatrixX3d::Zero(4 * n, 3);
-   Eigen::MatrixXd own(n, 4), ends(n, 1), kinds(n, 1), states(n, 1);
+   // Corners run round each cell, which has its own ones.
+   const std::vector<Polygon> cells = polygons_of(contact);
+   const auto sides = static_cast<Index>(cells.front().size());
+   Eigen::MatrixX3d corners = Eigen::MatrixX3d::Zero(sides * n, 3);
+   Eigen::MatrixXd own(n, sides), ends(n, 1), kinds(n, 1), states(n, 1);
    const std::vector<NodeState> settled = settled_states(problem, state);
    for (Index i = 0; i < n; ++i)
    {
-      for (Index k = 0; k < 4; ++k)
+      const auto cell = static_cast<std::size_t>(i);
+      for (Index k = 0; k < sides; ++k)
       {
-         const Eigen::Vector2d way(k == 1 || k == 2 ? 0.5 : -0.5, k > 1 ? 0.5 : -0.5);
-         corners.row(4 * i + k).head(2) =
-            contact.centres.row(i) + way.cwiseProduct(contact.size).transpose();
-         own(i, k) = static_cast<double>(4 * i + k);
+         corners.row(sides * i + k).head(2) = cells[cell][static_cast<std::size_t>(k)];
+         own(i, k) = static_cast<double>(sides * i + k);
       }
-      ends(i, 0) = static_cast<double>(4 * (i + 1));
-      kinds(i, 0) = 9; // a quadrilateral
-      states(i, 0) = static_cast<double>(settled[static_cast<std::size_t>(i)]);
+      ends(i, 0) = static_cast<double>(sides * (i + 1));
+      kinds(i, 0) = sides == 3 ? 5 : 9; // VTK's triangle and quadrilateral
+      states(i, 0) = static_cast<double>(settled[cell]);
    }
-   const double area = contact.size.prod();
+   const Eigen::VectorXd by_area = contact.areas().cwiseInverse();
    std::ostringstream out;
    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
           "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-       << 4 * n << "\" NumberOfCells=\"" << n << "\">\n<Points>\n";
+       << sides * n << "\" NumberOfCells=\"" << n << "\">\n<Points>\n";
    add_array(out, "Points", "Float64", corners);
    out << "</Points>\n<Cells>\n";
    add_array(out, "connectivity", "Int64", own);
    add_array(out, "offsets", "Int64", ends);
    add_array(out, "types", "UInt8", kinds);
    out << "</Cells>\n<CellData>\n";
-   add_array(out, "pressure", "Float64", state.p / area);
-   add_array(out, "shear", "Float64", along_surface(state.q / area));
+   add_array(out, "pressure", "Float64", state.p.cwiseProduct(by_area));
+   add_array(out, "shear", "Float64",
+             along_surface(state.q.cwiseProduct(by_area.replicate(2, 1))));
    add_array(out, "slip", "Float64", along_surface(state.v));
    add_array(out, "opening", "Float64", state.w + problem.gap);
    add_array(out, "state", "Int8", states);

@@ -8,8 +8,8 @@ namespace cattaneo
 {
 
 /** Writes a state of the contact of half-spaces as a VTU file (for ParaView, PyVista, meshio):
-    one quadrilateral for each rectangle, with `pressure`, `shear` (of the body above) and
-   `slip` as vectors, `opening` w + gap, and `state`, the number of its NodeState from
+    one quadrilateral or triangle for each cell, with `pressure`, `shear` (of the body above)
+   and `slip` as vectors, `opening` w + gap, and `state`, the number of its NodeState from
     settled_states(). Files with numbered names, one for each state of a march, are one series
     for ParaView. InputError if the problem is not that of the contact, the state not of the
     problem, or the file cannot be written. */
