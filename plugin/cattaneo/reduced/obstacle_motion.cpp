@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
@@ -90,7 +93,9 @@ VectorXd Reduction::moved(const VectorXd &u, const VectorXd &multipliers) const
    // Those that are free follow what the others do.
    if (free_motions_.size() > 0)
    {
-      all += free_motions_ * (by_load_ * multipliers.head(by_load_.cols()) + by_contact_ * all);
+      VectorXd far = by_load_ * multipliers.head(by_load_.cols());
+      far += by_contact_ * all;
+      all += free_motions_ * far;
    }
    return all;
 }
@@ -149,28 +154,36 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
       D.col(a) = displaced(load.empty() ? "free obstacle" : new_pattern(problem, load),
                            motions[a].motions);
    }
-   const MatrixXd KD = problem.K * D;
-   const Eigen::LLT<MatrixXd> M(D.transpose() * KD);
-   const VectorXd size = (D.transpose() * KD).diagonal();
-   // What is left of a motion when the others are free to follow.
-   const bool resisted =
-      M.info() == Eigen::Success &&
-      (MatrixXd(M.matrixL()).diagonal().cwiseAbs2().array() > 1e-10 * size.array()).all() &&
-      (size.array() >
-       1e-12 * D.colwise().squaredNorm().transpose().array() * problem.K.diagonal().maxCoeff())
-         .all();
+   const MatrixXd KD = product(problem.K, D);
+   const MatrixXd M = transposed_product(D, KD);
+   const VectorXd size = M.diagonal(), squares = D.colwise().squaredNorm();
+   const double most = problem.K.diagonal().maxCoeff();
+   bool resisted = true;
+   for (Index a = 0; a < count; ++a) { resisted &= size[a] > 1e-12 * squares[a] * most; }
+   // Motions of unit energy have pivots of what is left of them when the others are free to
+   // follow.
+   VectorXd unit = VectorXd::Zero(count);
+   DenseCholesky factor;
+   if (resisted)
+   {
+      unit = size.cwiseSqrt().cwiseInverse();
+      resisted = factor.compute(unit.asDiagonal() * M * unit.asDiagonal()) &&
+                 factor.smallest_pivot() > 1e-10;
+   }
    require(resisted, "free obstacles: the bodies do not resist all of their motions, something "
                      "must hold the bodies or the obstacles");
+   const auto solved = [&](const MatrixXd &forces) -> MatrixXd
+   { return unit.asDiagonal() * factor.solved(unit.asDiagonal() * forces); };
    MatrixXd f(m + n, before);
    for (Index k = 0; k < before; ++k)
    {
       f.col(k) << problem.patterns[k].q, problem.patterns[k].p;
    }
-   const MatrixXd work = D.transpose() * f; // of each load on each motion
+   const MatrixXd work = transposed_product(D, f); // of each load on each motion
    free_motions_ = D;
-   by_contact_ = -M.solve(KD.transpose());
+   by_contact_ = -solved(KD.transpose());
    by_load_ = MatrixXd::Zero(count, before);
-   if (before > 0) { by_load_ = -M.solve(work); }
+   if (before > 0) { by_load_ = -solved(work); }
    // 1. The loads that are there already.
    for (Index k = 0; k < before; ++k)
    {
@@ -181,7 +194,10 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
       const double sign = load.control == Control::force ? -1 : 1;
       if (problem.knows_loads())
       {
-         problem.H.row(k) += sign * work.col(k).transpose() * by_load_;
+         for (Index j = 0; j < before; ++j)
+         {
+            problem.H(k, j) += sign * work.col(k).dot(by_load_.col(j));
+         }
       }
    }
    // 2. Those of the obstacles.
@@ -190,7 +206,7 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
    {
       if (motions[a].load.empty()) { continue; }
       const auto at = static_cast<Index>(problem.patterns.size());
-      const VectorXd y = motions[a].force * M.solve(VectorXd::Unit(count, a));
+      const VectorXd y = motions[a].force * solved(VectorXd::Unit(count, a));
       const VectorXd given = KD * y;
       problem.patterns.push_back(
          {motions[a].load, Control::force, given.head(m), given.tail(n)});
@@ -214,12 +230,12 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
       }
    }
    // 3. Bodies and obstacles that move together meet no resistance.
-   problem.K -= KD * M.solve(KD.transpose());
-   problem.K.triangularView<Eigen::StrictlyUpper>() = problem.K.transpose();
+   MatrixXd half = unit.asDiagonal() * KD.transpose();
+   factor.solve_half(half);
+   problem.K = minus_square(std::move(problem.K), half);
    MatrixXd free(m + n, problem.rigid_motions.cols() + count);
    free << problem.rigid_motions, D;
-   const Eigen::HouseholderQR<MatrixXd> factor(free);
-   problem.rigid_motions = factor.householderQ() * MatrixXd::Identity(m + n, free.cols());
+   problem.rigid_motions = thin_qr(free).Q;
    join_coupling(problem);
 }
 
