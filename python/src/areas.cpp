@@ -40,6 +40,30 @@ void bind_areas(nb::module_ &m)
       "Areas of contact, stick, slip and separation in a state of a problem with two "
       "tangential "
       "components, from settled_states().");
+   nb::class_<RadialEdge>(readout, "RadialEdge", "The radius of a circular edge.")
+      .def_ro("radius", &RadialEdge::radius,
+              "of the circle that has the area of the nodes within")
+      .def_ro("error", &RadialEdge::error,
+              "each node nearer than radius - error is within, each one beyond radius + error "
+              "outside; at least half an edge of a node; an estimate, no bound")
+      .def("__float__", [](const RadialEdge &self) { return self.radius; })
+      .def("__repr__",
+           [](const RadialEdge &self)
+           {
+              std::ostringstream text;
+              text << self.radius << " ± " << self.error;
+              return text.str();
+           });
+   nb::class_<RadialEdges>(readout, "RadialEdges", "Edges of a contact that is round.")
+      .def_ro("contact", &RadialEdges::contact, "between contact and separation")
+      .def_ro("stick", &RadialEdges::stick, "between stick and the annulus of slip");
+   readout.def(
+      "radial_edges",
+      [](const ReducedProblem &problem, const ContactState &state, Numbers centre)
+      { return radial_edges(problem, state, vector(centre, "centre", 2)); },
+      nb::arg("problem"), nb::arg("state"), nb::arg("centre") = nb::make_tuple(0.0, 0.0),
+      "Radii of contact and of stick about a centre (x, y) in a state of a contact surface, "
+      "with the range in which they lie.");
 }
 
 } // namespace cattaneo::python

@@ -78,6 +78,29 @@ void bind_half_spaces(nb::module_ &m)
          "and 'Q2' act along x and y; if it turns, 'T' is a moment about z. Their conjugates "
          "are its approach, shifts and turn.")
       .def(
+         "outlines",
+         [](const HalfSpace &self, Numbers cells)
+         {
+            // True and false are no numbers elsewhere.
+            const nb::object flags = nb::module_::import_("numpy")
+                                        .attr("asarray")(cells, "bool")
+                                        .attr("astype")("float");
+            const Eigen::VectorXd which = vector(flags, "cells", self.nodes());
+            nb::list lines;
+            for (Eigen::MatrixX2d &line :
+                 self.outlines(std::vector<bool>(which.begin(), which.end())))
+            {
+               lines.append(array(Eigen::MatrixXd(line)));
+            }
+            return lines;
+         },
+         nb::arg("cells"),
+         nb::sig("def outlines(self, cells: numpy.typing.ArrayLike) -> "
+                 "list[numpy.typing.NDArray[numpy.float64]]"),
+         "Outlines of the cells with true entries, (n,), along their edges: closed lines (k, "
+         "2), counter-clockwise around a part and clockwise around a hole. "
+         "settled_states(problem, state) == NodeState.stick is the edge of stick.")
+      .def(
          "displacements",
          [](const HalfSpace &self, Numbers points, Numbers forces)
          {

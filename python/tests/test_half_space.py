@@ -177,6 +177,12 @@ def test_triangles_of_squares():
     approach = cattaneo.conjugates(problem, state)[problem.loads.index("P")]
     assert approach == pytest.approx(a**2 / radius, rel=2e-3)
     assert cattaneo.readout.contact_areas(problem, state).contact.area == pytest.approx(np.pi * a**2, abs=np.pi * a * 0.1)
+    edge = cattaneo.readout.radial_edges(problem, state, centre=(0, 0)).contact
+    assert abs(float(edge) - a) <= edge.error < 0.1
+    closed = cattaneo.settled_states(problem, state) != NodeState.separation
+    (line,) = space.outlines(closed)
+    x, y = line.T
+    assert (x[:-1] @ y[1:] - x[1:] @ y[:-1]) / 2 == pytest.approx(space.areas[closed].sum())
     with pytest.raises(cattaneo.InputError, match="rectangles have centres and no size"):
         cattaneo.HalfSpace(MATERIAL, centres=[[0.0, 0.0]])
     with pytest.raises(cattaneo.InputError, match="not whole numbers"):

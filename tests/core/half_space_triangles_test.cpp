@@ -267,6 +267,12 @@ Sheared sheared(int rings)
    result.shift = conjugate(problem, state, "Q1") / shift(s);
    const ContactAreas areas = contact_areas(problem, state);
    EXPECT_NEAR(areas.stick.area, M_PI * std::pow(1 - s, 2.0 / 3), areas.stick.error);
+   const RadialEdges edges = radial_edges(problem, state);
+   EXPECT_NEAR(edges.contact.radius, 1, edges.contact.error);
+   EXPECT_NEAR(edges.stick.radius, std::cbrt(1 - s), edges.stick.error);
+   const double width = 1.15 / rings; // of a ring: whole triangles of it are in or out
+   EXPECT_LT(edges.contact.error, width);
+   EXPECT_LT(edges.stick.error, width);
    const double first = state.dissipation;
    go(pressed);
    result.unloading = conjugate(problem, state, "Q1") / (shift(s) - 2 * shift(s / 2));
@@ -389,6 +395,53 @@ TEST(HalfSpaceTriangles, NothingDependsOnTheFrame)
    marched(problem, {points[0], points[1]}, parts, 2);
    marched(problem, points, parts, 2);
    EXPECT_EQ(whole.q, parts.q);
+}
+
+/// ½ ∮ x dy - y dx
+double enclosed(const Eigen::MatrixX2d &line)
+{
+   double twice = 0;
+   for (Index k = 1; k < line.rows(); ++k)
+   {
+      twice += line(k - 1, 0) * line(k, 1) - line(k, 0) * line(k - 1, 1);
+   }
+   return twice / 2;
+}
+
+/// A ring of cells has an outer and an inner outline, cells that touch with a corner one each.
+TEST(HalfSpaceTriangles, Outlines)
+{
+   const HalfSpace squares =
+      cattaneo_test::contact_of({1, 0.3}, {}, 0.1, cattaneo_test::cells(3, 0.1, 1));
+   std::vector<bool> ring(9, true);
+   ring[4] = false;
+   std::vector<Eigen::MatrixX2d> lines = squares.outlines(ring);
+   ASSERT_EQ(lines.size(), 2u);
+   EXPECT_NEAR(enclosed(lines[0]), 0.09, 1e-15);
+   EXPECT_NEAR(enclosed(lines[1]), -0.01, 1e-15); // clockwise
+   EXPECT_EQ(lines[0].rows(), 13);
+   EXPECT_EQ(lines[0].row(0), lines[0].row(12));
+   const std::vector<bool> diagonal{true, false, false, false, true, false, false, false, true};
+   lines = squares.outlines(diagonal);
+   ASSERT_EQ(lines.size(), 3u);
+   for (const Eigen::MatrixX2d &line : lines)
+   {
+      EXPECT_EQ(line.rows(), 5);
+      EXPECT_NEAR(enclosed(line), 0.01, 1e-15);
+   }
+   EXPECT_TRUE(squares.outlines(std::vector<bool>(9)).empty());
+   expect_input_error([&] { squares.outlines(std::vector<bool>(8)); }, "8 cells, must be 9");
+
+   // Some triangles run clockwise.
+   HalfSpace disc = disc_of_triangles({1, 0.3}, {}, 3, 1);
+   disc.triangles.topRows(20) = disc.triangles.topRows(20).rowwise().reverse().eval();
+   std::vector<bool> annulus(54, true);
+   std::fill_n(annulus.begin(), 6, false);
+   lines = disc.outlines(annulus);
+   ASSERT_EQ(lines.size(), 2u);
+   EXPECT_EQ(std::max(lines[0].rows(), lines[1].rows()), 19);
+   EXPECT_EQ(std::min(lines[0].rows(), lines[1].rows()), 7);
+   EXPECT_NEAR(enclosed(lines[0]) + enclosed(lines[1]), disc.areas().tail(48).sum(), 1e-14);
 }
 
 TEST(HalfSpaceTriangles, SaysWhatItCannotTake)

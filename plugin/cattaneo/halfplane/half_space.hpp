@@ -3,6 +3,7 @@
 #include <cattaneo/material.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <optional>
+#include <vector>
 
 namespace cattaneo
 {
@@ -45,6 +46,13 @@ struct HalfSpace
    Eigen::Index nodes() const;       ///< number n of the cells
    Eigen::VectorXd areas() const;    ///< of the cells
    Eigen::MatrixX2d middles() const; ///< of the cells, n × 2: centres of area
+
+   /** Outlines of some cells, those of true entries (size n), along their edges: closed lines
+       k × 2 of which the last point is the first one. The cells lie on their left, so that
+       they run counter-clockwise around a part and clockwise around a hole; parts that touch
+       with a corner alone have an outline each. With states from settled_states() they are the
+       edges of contact and of stick. InputError as of validate(), or for another size. */
+   std::vector<Eigen::MatrixX2d> outlines(const std::vector<bool> &cells) const;
 
    /** The frictional contact of these bodies with a gap of each cell (size n), measured at the
        centre of a rectangle, or the mean over a triangle, without friction until

@@ -29,4 +29,27 @@ struct ContactAreas
 /// another one, one without weights, or a state that does not fit.
 ContactAreas contact_areas(const ReducedProblem &problem, const ContactState &state);
 
+/// The radius of a circular edge, from nodes on its two sides.
+struct RadialEdge
+{
+   double radius = 0; ///< of the circle that has the area of the nodes within
+   /// Each node nearer to the centre than radius - error is within, each one beyond radius +
+   /// error outside. At least half an edge of a node, as a node that the edge crosses may be on
+   /// either side; large where the edge is no circle about that centre. An estimate, no bound.
+   double error = 0;
+};
+
+/// Edges of a contact that is round.
+struct RadialEdges
+{
+   RadialEdge contact; ///< between contact and separation
+   RadialEdge stick;   ///< between stick and the annulus of slip around it
+};
+
+/// Edges of contact and of stick about a centre (x, y), from settled_states(), of a surface
+/// (`position` n × 3) with weights. Without a node within, the radius is 0. InputError for
+/// another problem, or a state that does not fit.
+RadialEdges radial_edges(const ReducedProblem &problem, const ContactState &state,
+                         const Eigen::Vector2d &centre = {0, 0});
+
 } // namespace cattaneo
