@@ -62,7 +62,7 @@ public:
    {
       miniapp::Panel panel(miniapp::Panel::Kind::lines, name, title_, columns_[0],
                            "seconds (CPU time)");
-      panel.say("scale: loglog");
+      panel.say("scale", "loglog");
       std::printf("%15s", "exponent");
       for (std::size_t k = 1; k < data_.size(); ++k)
       {
@@ -70,7 +70,7 @@ public:
       }
       std::printf("\n");
       for (int k : shown) { panel.add(columns_[k], data_[0], data_[k]); }
-      return {name, panel.csv()};
+      return {name, panel.csv(), panel.json()};
    }
 
 private:
@@ -226,7 +226,8 @@ int main(int argc, char *argv[])
             }
             panels.push_back(table.finish("cycles", {1, 3}));
          }
-         miniapp::output(panels, csv, picture);
+         miniapp::write_csv(panels, csv);
+         miniapp::draw(panels, picture);
          return 0;
       });
 }

@@ -233,8 +233,8 @@ void draw(const Problem &problem, const std::vector<Reference> &reference,
                            std::string(problem.name) + (time ? "_seconds" : "_dofs"),
                            std::string(problem.title) + ": " + quantity.name,
                            time ? "seconds (CPU)" : "dofs", "error");
-      panel.say("scale: loglog");
-      if (uncertainty > 0) { panel.say(miniapp::text("shade y: 1e-16,%g,", uncertainty)); }
+      panel.say("scale", "loglog");
+      if (uncertainty > 0) { panel.say("shade y", miniapp::text("1e-16,%g,", uncertainty)); }
       double least = 1;
       for (const Run &run : runs)
       {
@@ -248,7 +248,7 @@ void draw(const Problem &problem, const std::vector<Reference> &reference,
       }
       panel.limit("y", 0.5 * std::min(least, uncertainty > 0 ? uncertainty : least),
                   std::numeric_limits<double>::quiet_NaN());
-      panels.push_back({panel.name(), panel.csv()});
+      panels.push_back({panel.name(), panel.csv(), panel.json()});
    }
 }
 
@@ -339,7 +339,7 @@ int main(int argc, char *argv[])
          std::printf("\n%.0f s in all\n", watch.seconds());
          table.close();
          require(csv.empty() || !table.fail(), "file '", csv, "' cannot be written");
-         miniapp::output(panels, "", picture);
+         miniapp::draw(panels, picture);
          if (failed) { std::printf("%d runs failed\n", failed); }
          return failed ? 2 : 0;
       });

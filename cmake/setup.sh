@@ -154,7 +154,7 @@ bring_pynastran()
 bring_python()
 {
    local target=$PWD/$deps/python
-   [ -d "$target" ] || [ "$flavour" = core ] && return 0
+   [ -d "$target" ] || [ "$flavour${with_python:-}" = core ] && return 0
    command -v python3 >/dev/null || return 0
    say "bringing nanobind, NumPy, SciPy, scikit-fem, matplotlib and pytest (for the Python package and tests)"
    mkdir -p "$deps"
@@ -187,7 +187,7 @@ prepare()
    fi
    bring_mfem
    [ -d "$deps/python" ] && CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_PYTEST=$PWD/$deps/python/bin/python"
-   if [ -d "$deps/python" ] && [ "$flavour$build_type" = serialRelease ]; then
+   if [ -d "$deps/python" ] && { [ "$flavour$build_type" = serialRelease ] || [ -n "${with_python:-}" ]; }; then
       CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_PYTHON=ON -DPython_EXECUTABLE=$PWD/$deps/python/bin/python"
    fi
    # The core knows no MFEM: where it is built for the serial flavour the other one uses it.

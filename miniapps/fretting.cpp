@@ -64,7 +64,7 @@ void assess_pad(Study &study)
 {
    Pad pad;
    std::string material = "Al", criterion = "open", records,
-               material_file = shipped("data/materials.json");
+               material_file = shipped("miniapps/data/materials.json");
    PlaneWeights weights;
    double depth = none, young = none, poisson = none, threshold = none, limit = none,
           yield = none;

@@ -169,7 +169,7 @@ void sweep(Study &study, Joint &joint, const std::vector<double> &loads,
          &losses = study.lines("loss", "Dissipation a steady cycle", "|T|/P0", "D E'/P0²"),
          &by_width =
             study.lines("loss_by_width", "Dissipation a steady cycle", "w/t", "D E'/P0²");
-   losses.say("scale: loglog");
+   losses.say("scale", "loglog");
    for (double f : frictions)
    {
       set_friction(joint.problem(), f);

@@ -35,6 +35,7 @@ def main():
         sys.exit(f"cattaneo: {build} has no Python module (-DCATTANEO_PYTHON=ON asks for it)")
     for module in [*(ROOT / "python/cattaneo").glob("*.py"), ROOT / "python/cattaneo/py.typed"]:
         shutil.copy(module, content / "cattaneo")
+    shutil.copytree(ROOT / "python/cattaneo_show", content / "cattaneo_show", ignore=shutil.ignore_patterns("__pycache__"))
     # Name, version, what it requires, and the tags of this Python: as pip would write them.
     os.chdir(ROOT)
     information = content / prepare_metadata_for_build_wheel(str(content))

@@ -4,6 +4,7 @@
 #include "common/shipped.hpp"
 #include "common/text.hpp"
 
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>
@@ -11,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <unistd.h>
 
 namespace miniapp
 {
@@ -18,6 +20,7 @@ namespace miniapp
 using namespace cattaneo;
 using Eigen::Index;
 using Eigen::VectorXd;
+using nlohmann::ordered_json;
 
 namespace
 {
@@ -39,31 +42,146 @@ VectorXd vector(const std::vector<double> &values)
 
 Panel::Panel(Kind kind, const std::string &name, const std::string &title,
              const std::string &x_label, const std::string &y_label)
-   : name_(name)
+   : name_(name), kind_(kind)
 {
    static const char *const kinds[] = {"lines", "zones", "plan", "field", "scene"};
-   static const char *const headers[] = {"series,style,x,y\n", "time,state,from,to\n",
-                                         "item,from,to\n", "series,x,y,value\n",
-                                         "item,x,y,dx,dy\n"};
-   const auto k = static_cast<std::size_t>(kind);
-   for (const auto &[key, word] : {std::pair<std::string, std::string>{"kind", kinds[k]},
-                                   {"title", title},
-                                   {"x", x_label},
-                                   {"y", y_label}})
-   {
-      say(key + ": " + word);
-   }
-   rows_ = headers[k];
+   words_ = {{"kind", kinds[static_cast<std::size_t>(kind)]},
+             {"title", title},
+             {"x", x_label},
+             {"y", y_label}};
 }
+
+namespace
+{
+
+/// Columns of a panel's table: words, and numbers.
+struct PanelColumns
+{
+   std::vector<const char *> words, numbers;
+};
+const PanelColumns &columns_of(Panel::Kind kind)
+{
+   static const PanelColumns all[] = {{{"series", "style"}, {"x", "y"}},
+                                      {{"state"}, {"time", "from", "to"}},
+                                      {{"item"}, {"from", "to"}},
+                                      {{"series"}, {"x", "y", "value"}},
+                                      {{"item"}, {"x", "y", "dx", "dy"}}};
+   return all[static_cast<std::size_t>(kind)];
+}
+
+/// The digits of a CSV file are enough to look at.
+ordered_json rounded_to_draw(double x)
+{
+   if (!std::isfinite(x)) { return nullptr; }
+   return std::strtod(text("%.9g", x).c_str(), nullptr);
+}
+
+} // namespace
 
 void Panel::row(const std::vector<std::string> &words, const std::vector<double> &numbers)
 {
-   std::vector<std::string> cells;
-   for (const std::string &word : words) { cells.push_back(csv_field(word)); }
-   for (double x : numbers) { cells.push_back(std::isfinite(x) ? text("%.9g", x) : ""); }
-   for (std::size_t k = 0; k < cells.size(); ++k) { rows_ += (k ? "," : "") + cells[k]; }
-   rows_ += '\n';
-   ++points_;
+   const PanelColumns &columns = columns_of(kind_);
+   // Zones of one time lie side by side and have several states: they are all one part.
+   const bool in_columns = kind_ == Kind::zones;
+   const auto continues = [&](const ordered_json &part)
+   {
+      if (in_columns) { return true; }
+      for (std::size_t k = 0; k < words.size(); ++k)
+      {
+         if (part[columns.words[k]] != words[k]) { return false; }
+      }
+      return true;
+   };
+   if (parts_.empty() || !continues(parts_.back()))
+   {
+      ordered_json &part = parts_.emplace_back();
+      for (std::size_t k = 0; k < words.size(); ++k)
+      {
+         part[columns.words[k]] = in_columns ? ordered_json::array() : ordered_json(words[k]);
+      }
+      for (const char *column : columns.numbers) { part[column] = ordered_json::array(); }
+   }
+   for (std::size_t k = 0; in_columns && k < words.size(); ++k)
+   {
+      parts_.back()[columns.words[k]].push_back(words[k]);
+   }
+   for (std::size_t k = 0; k < numbers.size(); ++k)
+   {
+      parts_.back()[columns.numbers[k]].push_back(rounded_to_draw(numbers[k]));
+   }
+}
+
+void add_word(ordered_json &words, const std::string &key, const std::string &word)
+{
+   if (!words.contains(key)) { words[key] = word; }
+   else
+   {
+      if (!words[key].is_array()) { words[key] = ordered_json::array({words[key]}); }
+      words[key].push_back(word);
+   }
+}
+
+void Panel::say(const std::string &key, const std::string &word)
+{
+   add_word(words_, key, word);
+}
+
+std::string comments(const ordered_json &words)
+{
+   std::string lines;
+   for (const auto &[key, said] : words.items())
+   {
+      const ordered_json all = said.is_array() ? said : ordered_json::array({said});
+      for (const ordered_json &word : all)
+      {
+         lines += "# " + key + ": " + word.get<std::string>() + "\n";
+      }
+   }
+   return lines;
+}
+
+bool Panel::empty() const
+{
+   // Values of the thesis alone are nothing to draw.
+   return parts_.empty() ||
+          (kind_ == Kind::zones &&
+           std::all_of(parts_[0]["state"].begin(), parts_[0]["state"].end(),
+                       [](const ordered_json &state) { return state == "thesis"; }));
+}
+
+std::string Panel::csv() const
+{
+   if (empty()) { return ""; }
+   const PanelColumns &columns = columns_of(kind_);
+   std::vector<std::string> order(columns.words.begin(), columns.words.end());
+   order.insert(order.end(), columns.numbers.begin(), columns.numbers.end());
+   if (kind_ == Kind::zones) { std::swap(order[0], order[1]); } // time, then state
+   std::string table = comments(words_) + listed(order, ",") + "\n";
+   for (const ordered_json &part : parts_)
+   {
+      const std::size_t rows = part[columns.numbers[0]].size();
+      for (std::size_t i = 0; i < rows; ++i)
+      {
+         for (std::size_t k = 0; k < order.size(); ++k)
+         {
+            const ordered_json &column = part[order[k]];
+            const ordered_json &cell = column.is_array() ? column[i] : column;
+            table += k > 0 ? "," : "";
+            if (cell.is_string()) { table += csv_field(cell.get<std::string>()); }
+            else if (cell.is_number()) { table += text("%.9g", cell.get<double>()); }
+         }
+         table += '\n';
+      }
+   }
+   return table;
+}
+
+ordered_json Panel::json() const
+{
+   ordered_json panel = {{"name", name_}};
+   panel.update(words_);
+   panel["parts"] = parts_;
+   return panel;
 }
 
 void Panel::add(const std::string &series, const VectorXd &x, const VectorXd &y,
@@ -110,13 +228,12 @@ void Panel::add(double time, const std::vector<Zone> &zones,
 
 void Panel::zone(double time, const std::string &state, double from, double to)
 {
-   rows_ += text("%.9g,%s,%.9g,%.9g\n", time, state.c_str(), from, to);
-   ++points_;
+   row({state}, {time, from, to});
 }
 
 void Panel::mark(double time, double coordinate)
 {
-   rows_ += text("%.9g,thesis,%.9g,%.9g\n", time, coordinate, coordinate);
+   row({"thesis"}, {time, coordinate, coordinate});
 }
 
 void Panel::add(const std::vector<Zone> &rings)
@@ -146,59 +263,61 @@ void Panel::add(const std::string &series, double x, double y, double value)
 void Panel::limit(const char *axis, double lo, double hi)
 {
    const auto bound = [](double x) { return std::isfinite(x) ? text("%.9g", x) : ""; };
-   say(std::string("limits ") + axis + ": " + bound(lo) + "," + bound(hi));
+   say(std::string("limits ") + axis, bound(lo) + "," + bound(hi));
 }
 
-void run_plot_script(const std::vector<std::string> &arguments, const std::string &picture)
+void write_csv(const std::vector<Sheet> &sheets, const std::string &prefix)
 {
-   if (!writes()) { return; }
-   std::string command =
-      // Ctrl-C is for the study: a second one must not leave half a picture.
-      "trap '' INT; for python in python3 /usr/bin/python3; do command -v $python >/dev/null "
-      "|| continue; "
-      "CATTANEO_TRIES_PYTHONS=1 $python " +
-      argument(shipped("plot/plot.py"));
-   for (const std::string &text : arguments) { command += " " + argument(text); }
-   command += " " + argument(picture) + "; code=$?; [ $code = 3 ] || exit $code; done; exit 3";
-   std::cout << std::flush;
-   require(std::system(command.c_str()) == 0, "option --plot: '", picture,
-           "' was not drawn; it needs Python 3 with matplotlib (Debian: python3-matplotlib)");
-}
-
-void output(const std::vector<Sheet> &sheets, const std::string &csv_prefix,
-            const std::string &picture)
-{
-   if (!writes()) { return; }
-   require(csv_prefix.empty() || !sheets.empty(), "option --csv: this run has no tables");
-   std::vector<std::string> drawn;
+   if (prefix.empty() || !writes()) { return; }
+   require(!sheets.empty(), "option --csv: this run has no tables");
    for (const Sheet &sheet : sheets)
    {
-      const bool draw = !picture.empty() && sheet.drawn;
-      if (csv_prefix.empty() && !draw) { continue; }
-      const std::string name =
-         (csv_prefix.empty() ? picture : csv_prefix) + "_" + sheet.name + ".csv";
-      write_whole(name, sheet.text);
-      if (draw) { drawn.push_back(name); }
+      write_whole(prefix + "_" + sheet.name + ".csv", sheet.csv);
    }
-   if (picture.empty()) { return; }
-   require(!drawn.empty(), "option --plot: this run has nothing to draw");
-   const auto tidy = [&]
+}
+
+void show(const std::string &run, bool passing, const std::string &option,
+          const std::string &file)
+{
+   if (!writes()) { return; }
+   const std::string command = "python3 " + argument(shipped("python/cattaneo_show")) + " " +
+                               argument(run) + " " + option + " " + argument(file);
+   std::cout << std::flush;
+   // Ctrl-C is for the study: a second one must not leave half a picture.
+   const int code = std::system(
+      ("trap '' INT; command -v python3 >/dev/null && CATTANEO_PROGRAM=1 " + command).c_str());
+   require(code == 0, "option ", option, ": '", file, "' was not made; it needs Python 3",
+           option == "--plot" ? " with matplotlib (Debian: python3-matplotlib)" : "",
+           "; the run is in '", run, "', and this makes it later: ", command);
+   if (passing) { std::remove(run.c_str()); }
+}
+
+void become_reader(const std::vector<std::string> &words)
+{
+   std::vector<std::string> all = {"python3", shipped("python/cattaneo_show")};
+   all.insert(all.end(), words.begin(), words.end());
+   std::vector<char *> arguments;
+   for (std::string &word : all) { arguments.push_back(word.data()); }
+   arguments.push_back(nullptr);
+   std::cout << std::flush;
+   std::fflush(stdout);
+#ifdef MFEM_USE_MPI
+   mfem::Mpi::Finalize();
+#endif
+   execvp("python3", arguments.data());
+}
+
+void draw(const std::vector<Sheet> &sheets, const std::string &picture)
+{
+   if (picture.empty() || !writes()) { return; }
+   ordered_json panels = ordered_json::array();
+   for (const Sheet &sheet : sheets)
    {
-      for (const std::string &name : drawn)
-      {
-         if (csv_prefix.empty()) { std::remove(name.c_str()); }
-      }
-   };
-   try
-   {
-      run_plot_script(drawn, picture);
+      if (!sheet.panel.is_null()) { panels.push_back(sheet.panel); }
    }
-   catch (const InputError &)
-   {
-      tidy();
-      throw;
-   }
-   tidy();
+   const std::string run = picture + ".json";
+   write_whole(run, ordered_json{{"shown", {{"panels", panels}}}}.dump() + "\n");
+   show(run, true, "--plot", picture);
 }
 
 } // namespace miniapp

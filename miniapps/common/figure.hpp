@@ -4,6 +4,7 @@
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,12 @@ namespace miniapp
 /// As much of a march as a picture can show, whatever its length.
 constexpr std::size_t most_drawn = 4096;
 
-/** One panel of a figure, which is also one CSV file: comment lines that name it and its axes
-    ("# kind: lines", "# title: …", "# x: …", "# y: …"), then a tidy table: one row a point
-    (series, style, x, y), a zone (time, state, from, to), a ring (its state, from, to) or arrow
-    (rate or total, radius, angle) of a plan, or a point of a field (series, x, y, value).
-    miniapps/plot/plot.py draws any list of such files, and every ResultTable that says how. */
+/** Data of one panel of a figure, in two forms. In JSON it has its words (kind, title, x, y, …)
+    and `parts`, each of which has its words (a curve has series and style) and a list of
+   numbers for each column. The CSV file has the words as comment lines ("# kind: lines") and a
+   tidy table: one row a point (series, style, x, y), a zone (time, state, from, to), a ring
+   (its state, from, to) or arrow (rate or total, radius, angle) of a plan, or a point of a
+   field (series, x, y, value). The package cattaneo_show draws it. */
 class Panel
 {
 public:
@@ -65,37 +67,54 @@ public:
    /// A value of a field.
    void add(const std::string &series, double x, double y, double value);
 
-   /// A word of the figure alone: "limits x: 0,1" (a side that is empty is left to the data),
-   /// "reversed: x", "scale: loglog" or "semilogx" or "semilogy", "shade: 0,1,slip zone".
-   void say(const std::string &comment) { comments_ += "# " + comment + "\n"; }
+   /// A word of the figure alone: "limits x", "0,1" (a side that is empty is left to the data);
+   /// "reversed", "x"; "scale", "loglog" or "semilogx" or "semilogy"; "shade", "0,1,slip zone",
+   /// which may be said several times.
+   void say(const std::string &key, const std::string &word);
    void limit(const char *axis, double lo, double hi);
 
    const std::string &name() const { return name_; }
-   /// Nothing if it has no points.
-   std::string csv() const { return points_ > 0 ? comments_ + rows_ : ""; }
+   bool empty() const;
+   std::string csv() const; ///< nothing without points
+   /// Its name, its words and its parts.
+   nlohmann::ordered_json json() const;
 
 private:
    void row(const std::vector<std::string> &words, const std::vector<double> &numbers);
-   std::string name_, comments_, rows_;
-   int points_ = 0;
+   std::string name_;
+   Kind kind_;
+   nlohmann::ordered_json words_;
+   std::vector<nlohmann::ordered_json> parts_;
 };
 
-/// A CSV file, and whether it is drawn.
+/// Words of a panel as comment lines of its CSV file.
+std::string comments(const nlohmann::ordered_json &words);
+
+/// Adds a word to those of a panel; a key that has one already then has a list of them.
+void add_word(nlohmann::ordered_json &words, const std::string &key, const std::string &word);
+
+/// A CSV file, and what is drawn of it (null: nothing).
 struct Sheet
 {
-   std::string name, text;
-   bool drawn = true;
+   std::string name, csv;
+   nlohmann::ordered_json panel;
 };
 
-/** Writes what the options --csv PREFIX and --plot FILE.png ask for: PREFIX_<sheet>.csv for
-    every sheet, and the picture of those that are drawn, by miniapps/plot/plot.py. InputError
-    if there is nothing to be written, a file cannot be written or the script fails. Nothing for
-    empty names. */
-void output(const std::vector<Sheet> &sheets, const std::string &csv_prefix,
-            const std::string &picture);
+/// Writes PREFIX_<sheet>.csv for every sheet; nothing for an empty prefix. InputError if there
+/// is no sheet or a file cannot be written.
+void write_csv(const std::vector<Sheet> &sheets, const std::string &prefix);
 
-/// Runs plot.py with the first python3 that has matplotlib, as the one in the path may be bare.
-/// InputError if there is none or the script fails.
-void run_plot_script(const std::vector<std::string> &arguments, const std::string &picture);
+/** Has the package cattaneo_show make a picture or a page ("--plot", "--html") of a run that
+   was written as JSON. InputError if it cannot, which says how it is made later; the JSON
+   stays.
+    @param passing whether the JSON is written for this alone, and goes with success */
+void show(const std::string &run, bool passing, const std::string &option,
+          const std::string &file);
+
+/// Becomes cattaneo_show with these words: returns only if there is no Python.
+void become_reader(const std::vector<std::string> &words);
+
+/// Draws panels that belong to no study, those of a benchmark. Nothing for an empty name.
+void draw(const std::vector<Sheet> &sheets, const std::string &picture);
 
 } // namespace miniapp

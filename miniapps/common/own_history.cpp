@@ -320,7 +320,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (!goes_on || study_.csv().empty()) { continue; }
       zones_in_time.read(name, study_.csv() + "_" + diagram.name() + ".csv", state.time);
    }
-   const bool shown = (tables || study_.draws()) && problem.nodes() > 0;
+   const bool shown = study_.keeps_panels() && problem.nodes() > 0;
    if (goes_on && shown && zones_in_time.empty())
    {
       study_.say(

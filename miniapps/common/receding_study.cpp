@@ -157,7 +157,7 @@ UnloadingPanels unload(Study &study, Run &run, const Receding &receding,
    }
    run.settings.increments = 1;
    run.through(points, observe);
-   diagram.say("reversed: x");
+   diagram.say("reversed", "x");
    return {profiles, diagram};
 }
 
@@ -204,7 +204,7 @@ void cycle_the_load(Study &study, Run &run, const Receding &receding,
          &profiles =
             study.lines("load_cycle_tractions", "Pressure p and shear q over f in the cycles",
                         receding.coordinate, "p/p0, q/(f p0)");
-   losses.say("scale: semilogy");
+   losses.say("scale", "semilogy");
    const auto shown = [&](double arc_length) { return arc_length + receding.shift; };
    const Eigen::VectorXd x = problem.arc_length.array() + receding.shift;
    diagram.add(0, zones(problem, loaded), shown);

@@ -103,7 +103,7 @@ double mesh_share(const ordered_json &term, const Meaning &meaning)
 
 References::References(const std::string &study) : entries_(ordered_json::array())
 {
-   const std::string file = shipped("data/references.json");
+   const std::string file = shipped("miniapps/data/references.json");
    if (!std::ifstream(file).good())
    {
       warn("nothing is compared with references: file '" + file + "' cannot be read");

@@ -11,9 +11,9 @@ std::string shipped(const std::string &name)
    std::error_code unknown;
    const fs::path program = fs::read_symlink("/proc/self/exe", unknown),
                   installed = program.parent_path() / CATTANEO_SHARE_FROM_PROGRAM;
-   const fs::path beside = installed / "miniapps" / name;
+   const fs::path beside = installed / name;
    if (!unknown && fs::exists(beside)) { return beside.lexically_normal().string(); }
-   return CATTANEO_SOURCE_DIR "/miniapps/" + name;
+   return CATTANEO_SOURCE_DIR "/" + name;
 }
 
 } // namespace miniapp

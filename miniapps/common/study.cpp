@@ -66,8 +66,7 @@ void Study::parse(const char *json)
                      "option --save: --check stops before there is anything to save");
    if (!sweeps) { return; }
    cattaneo::require(!check_, "option --check is of one run, a sweep has many");
-   run_sweep(*this, sweep_, sweep_results_);
-   throw Done();
+   run_sweep(*this, name_, sweep_);
 }
 
 void Study::reduced(const Scene &scene)
@@ -206,13 +205,13 @@ ResultTable &Study::table(const std::string &name, const std::vector<Column> &co
       if (table.name() == name) { return table; }
    }
    const ResultTable &made = tables_.emplace_back(name, columns);
-   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), made.drawn()}; });
+   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), made.panel()}; });
    return tables_.back();
 }
 
 void Study::list(const std::string &name, const ordered_json &rows)
 {
-   sheets_.push_back([sheet = Sheet{name, csv_of(rows), false}] { return sheet; });
+   sheets_.push_back([sheet = Sheet{name, csv_of(rows), nullptr}] { return sheet; });
 }
 
 void Study::row(ResultTable &table, const std::vector<ordered_json> &values,
@@ -237,7 +236,7 @@ Panel &Study::panel(Panel::Kind kind, const std::string &name, const std::string
                     const std::string &x_label, const std::string &y_label)
 {
    const Panel &made = panels_.emplace_back(kind, name, title, x_label, y_label);
-   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), true}; });
+   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), made.json()}; });
    return panels_.back();
 }
 
@@ -320,21 +319,14 @@ void Study::finish()
    results["counters"] = to_json(counters);
    const cattaneo::BlasKernels kernels = cattaneo::blas_kernels();
    results["blas_kernels"] = kernels.name;
-   write_json(results, json_);
    if (verbose_) { say_more(kernels); }
-   std::vector<Sheet> sheets;
-   for (const auto &sheet : sheets_)
-   {
-      sheets.push_back(sheet());
-      if (sheets.back().text.empty()) { sheets.pop_back(); }
-   }
-   const bool drawn =
-      std::any_of(sheets.begin(), sheets.end(), [](const Sheet &sheet) { return sheet.drawn; });
-   // Whose loads no contact bears may end before there is anything to be drawn.
-   const bool nothing = code != 0 && !plot_.empty() && !drawn;
-   if (nothing) { say("no picture: the study ended before there was anything to draw"); }
-   output(sheets, code != 0 && sheets.empty() ? "" : csv_, nothing ? "" : plot_);
-   if (!html_.empty() && writes()) { write_html(drawn ? sheets : std::vector<Sheet>()); }
+   const std::vector<Sheet> all = sheets();
+   // Its results come before what only shows them.
+   ordered_json run = results;
+   run["shown"] = shown(all);
+   write_json(run, json_);
+   write_csv(all, code != 0 && all.empty() ? "" : csv_);
+   show_results(run);
 }
 
 void Study::say_more(const cattaneo::BlasKernels &kernels)
@@ -353,43 +345,64 @@ void Study::say_more(const cattaneo::BlasKernels &kernels)
    say("   " + kernels.statement());
 }
 
-void Study::write_html(const std::vector<Sheet> &sheets) const
+std::vector<Sheet> Study::sheets() const
 {
-   ordered_json films = ordered_json::array(), tables = ordered_json::array();
-   for (const Film &film : films_)
+   std::vector<Sheet> sheets;
+   for (const auto &sheet : sheets_)
    {
-      if (!film.empty()) { films.push_back(film.json()); }
+      sheets.push_back(sheet());
+      if (sheets.back().csv.empty()) { sheets.pop_back(); }
+   }
+   return sheets;
+}
+
+ordered_json Study::shown(const std::vector<Sheet> &sheets) const
+{
+   ordered_json panels = ordered_json::array(), tables = ordered_json::array(),
+                marches = ordered_json::array();
+   for (const Sheet &sheet : sheets)
+   {
+      if (!sheet.panel.is_null()) { panels.push_back(sheet.panel); }
    }
    for (const ResultTable &table : tables_)
    {
       const ordered_json printed = table.printed();
       if (!printed["head"].empty() && !printed["rows"].empty()) { tables.push_back(printed); }
    }
-   std::string figure;
-   if (!sheets.empty())
+   for (const Film &film : films_)
    {
-      const std::string svg = html_ + ".svg";
-      output(sheets, "", svg);
-      std::ostringstream text;
-      text << std::ifstream(svg).rdbuf();
-      std::remove(svg.c_str());
-      figure = text.str().substr(std::min(text.str().find("<svg"), text.str().size()));
+      if (!film.empty()) { marches.push_back(film.json()); }
    }
-   write_page(html_,
-              {{"study", name_},
-               {"status", results["status"]},
-               {"message", results.value("message", "")},
-               {"event", results.contains("event_loads")
-                            ? event_text(results["event_time"], results["event_loads"])
-                            : ""},
-               {"seconds", results["seconds"]},
-               {"warnings", warnings()},
-               {"options", options_.values()},
-               {"values", values_},
-               {"tables", tables},
-               {"films", films},
-               {"more_films", more_films_}},
-              figure);
+   return {{"study", name_},
+           {"event", results.contains("event_loads")
+                        ? event_text(results["event_time"], results["event_loads"])
+                        : ""},
+           {"options", options_.values()},
+           {"values", values_},
+           {"tables", tables},
+           {"panels", panels},
+           {"marches", marches},
+           {"more_marches", more_films_}};
+}
+
+void Study::show_results(const ordered_json &run) const
+{
+   if (!draws()) { return; }
+   // A study whose loads no contact bears may end before there is anything to be drawn.
+   const bool drawn = !run["shown"]["panels"].empty();
+   cattaneo::require(drawn || code != 0 || plot_.empty(),
+                     "option --plot: this run has nothing to draw");
+   const bool picture = has_picture() && drawn, passing = json_.empty();
+   if (has_picture() && !drawn)
+   {
+      std::printf("no picture: the study ended before there was anything to draw\n");
+   }
+   if (!picture && html_.empty()) { return; }
+   const std::string file = !passing ? json_ : (picture ? plot_ : html_) + ".json";
+   if (passing) { write_json(run, file); }
+   // The page first: it can be made where no picture can.
+   if (!html_.empty()) { show(file, passing && !picture, "--html", html_); }
+   if (picture) { show(file, passing, "--plot", plot_); }
 }
 
 int Study::run(const std::string &name, int argc, char *argv[],

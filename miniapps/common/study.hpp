@@ -1,9 +1,9 @@
 #pragma once
 
 #include "common/figure.hpp"
+#include "common/film.hpp"
 #include "common/miniapp.hpp"
 #include "common/options.hpp"
-#include "common/page.hpp"
 #include "common/references.hpp"
 #include "common/scene.hpp"
 #include "common/table.hpp"
@@ -26,7 +26,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 struct Outcome
 {
 };
-/// Leaves a study that was to do something else instead, and has (--check, --sweep).
+/// Leaves a study that was to do something else instead, and has (--check).
 struct Done
 {
 };
@@ -57,6 +57,7 @@ public:
       options_.add(value, names, help, choices);
    }
    Options &options() { return options_; }
+   const Options &options() const { return options_; }
    /// See Options::only_if().
    void only_if(bool used, const std::vector<std::string> &names, const std::string &why) const
    {
@@ -66,6 +67,8 @@ public:
    void parse(const char *json = "json");
    /// True if a picture is wanted.
    bool draws() const { return has_picture() || !html_.empty(); }
+   /// True if its panels go to a file: JSON, CSV, a picture or the page.
+   bool keeps_panels() const { return !json_.empty() || !csv_.empty() || draws(); }
    bool has_picture() const { return !plot_.empty(); }
    const std::string &csv() const { return csv_; } ///< prefix of its CSV files, if any
 
@@ -143,7 +146,11 @@ private:
    /// What --verbose prints at the end.
    void say_more(const cattaneo::BlasKernels &kernels);
    void compare_references();
-   void write_html(const std::vector<Sheet> &sheets) const;
+   /// The tables and panels that have something in them.
+   std::vector<Sheet> sheets() const;
+   /// What pictures and the page show beside the results.
+   nlohmann::ordered_json shown(const std::vector<Sheet> &sheets) const;
+   void show_results(const nlohmann::ordered_json &run) const;
    /// What a name means: a column of the row, a single result or an option.
    nlohmann::ordered_json meaning(const std::string &name,
                                   const nlohmann::ordered_json &row) const;

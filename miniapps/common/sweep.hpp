@@ -1,24 +1,17 @@
 #pragma once
 
-#include "common/study.hpp"
-
 #include <string>
 
 namespace miniapp
 {
 
-/** Runs of a study that differ in the values of some options: all combinations, the first key
-    slowest, each a process of the same program, as many at a time as there are cores. Table,
-    results and figure of the study are then those of the sweep: a row a point, in the order of
-    the sweep, with the status of each. A point that is no equilibrium or was refused is a row
-    that says so. Ctrl-C leaves the points that were computed.
+class Study;
 
-    @param statements "KEY=values; …", see Options::command(); values are words or numbers with
-    spaces between, or from:to:count
-    @param wanted results by their places in --json, with spaces between: "peak_pressure
-    dissipation.0"; nothing: all single numbers
-    InputError, before anything runs, if a key is none or a value is not allowed; and if every
-    point is refused. */
-void run_sweep(Study &study, const std::string &statements, const std::string &wanted);
+/** Runs of a study with other values, and a table of their results. Checks keys and values of
+    all points and becomes the package cattaneo_show, which runs them: it does not return.
+    InputError for what no option allows, and where there is no Python. On one rank only.
+    @param name of the study
+    @param statements "friction=0.2 0.5; order=1:4:4" */
+void run_sweep(const Study &study, const std::string &name, const std::string &statements);
 
 } // namespace miniapp

@@ -1,5 +1,6 @@
 #include "common/table.hpp"
 
+#include "common/figure.hpp"
 #include "common/text.hpp"
 #include "common/watch.hpp"
 
@@ -141,25 +142,21 @@ ResultTable &ResultTable::draw(const std::string &title, const std::string &x,
                                const std::string &x_label, const std::vector<Curve> &y,
                                const std::string &y_label, const Curve &by)
 {
-   comments_ = "# kind: table\n# title: " + title + "\n# x: " + x_label + "\n# y: " + y_label +
-               "\n# over: " + x + "\n";
-   for (const Curve &curve : y)
-   {
-      comments_ += "# curve: " + curve.key + "=" + curve.word + "\n";
-   }
-   if (!by.key.empty()) { comments_ += "# by: " + by.key + "=" + by.word + "\n"; }
+   words_ = {{"kind", "table"}, {"title", title}, {"x", x_label}, {"y", y_label}, {"over", x}};
+   for (const Curve &curve : y) { add_word(words_, "curve", curve.key + "=" + curve.word); }
+   if (!by.key.empty()) { words_["by"] = by.key + "=" + by.word; }
    return *this;
 }
 
 ResultTable &ResultTable::mark(double x, double y)
 {
-   comments_ += text("# mark: %g,%g\n", x, y);
+   add_word(words_, "mark", text("%g,%g", x, y));
    return *this;
 }
 
 ResultTable &ResultTable::shade(double from, double to, const std::string &word)
 {
-   comments_ += text("# shade: %g,%g,", from, to) + word + "\n";
+   add_word(words_, "shade", text("%g,%g,", from, to) + word);
    return *this;
 }
 
@@ -173,6 +170,14 @@ ordered_json ResultTable::printed() const
    return {{"name", name_}, {"head", head}, {"rows", printed_}};
 }
 
+ordered_json ResultTable::panel() const
+{
+   if (words_.is_null() || rows_.empty()) { return nullptr; }
+   ordered_json panel = {{"name", name_}};
+   panel.update(words_);
+   return panel;
+}
+
 std::string ResultTable::csv() const
 {
    std::vector<std::string> keys;
@@ -180,7 +185,7 @@ std::string ResultTable::csv() const
    {
       if (!column.key.empty()) { keys.push_back(column.key); }
    }
-   return rows_.empty() ? "" : comments_ + lines_of(keys, rows_);
+   return rows_.empty() ? "" : comments(words_) + lines_of(keys, rows_);
 }
 
 std::string csv_of(const ordered_json &rows)

@@ -50,7 +50,8 @@ public:
    ResultTable &mark(double x, double y);
    /// A stretch of x with a word in it.
    ResultTable &shade(double from, double to, const std::string &word);
-   bool drawn() const { return !comments_.empty(); }
+   /// How it is drawn, whose rows are those of the results of its name; null if it is not.
+   nlohmann::ordered_json panel() const;
 
    const std::string &name() const { return name_; }
    const nlohmann::ordered_json &json() const { return rows_; }
@@ -61,7 +62,8 @@ public:
    nlohmann::ordered_json printed() const;
 
 private:
-   std::string name_, comments_;
+   std::string name_;
+   nlohmann::ordered_json words_; ///< of its panel
    std::vector<Column> columns_;
    nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
    std::vector<std::vector<std::string>> printed_;

@@ -111,7 +111,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
       }
    }
    Panel &surface = study.lines("surface", "Stress along the surface", "t/d", "σ_vM/(K_N √d)");
-   surface.say("shade: 0,1,slip zone");
+   surface.say("shade", "0,1,slip zone");
    surface.limit("y", 0, none);
    add_curves(surface, {0.2, 0.4, 0.6, 0.8, 1.0}, f, 300,
               [&](double friction, int i)
@@ -189,10 +189,10 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    Panel &diagram =
       study.lines("diagram", "Kitagawa-Takahashi: " + to_string(r.threshold.verdict),
                   "crack depth c/a0", "driving force/ΔK_th");
-   diagram.say("scale: loglog");
+   diagram.say("scale", "loglog");
    // Where the crack is no longer small against the contact the field is another one.
    const double limit = 0.25 * width / r.critical_length;
-   if (width > 0 && limit < 10) { diagram.say(text("shade: %g,10,too deep", limit)); }
+   if (width > 0 && limit < 10) { diagram.say("shade", text("%g,10,too deep", limit)); }
    CrackedEdge alone = judged.problem.crack;
    alone.bulk_stress = alone.stress_gradient = 0;
    std::vector<double> c, no_growth, drive, drive_alone;
@@ -350,7 +350,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
    const auto over_life = [&](const char *name, const char *title, const char *y) -> Panel &
    {
       Panel &panel = study.lines(name, title, "life, cycles", y);
-      panel.say("scale: semilogx");
+      panel.say("scale", "semilogx");
       return panel;
    };
    Panel &stress = over_life("stress", "Edge stress range", "Δσ_xx, MPa"),

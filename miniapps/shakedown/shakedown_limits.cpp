@@ -219,7 +219,7 @@ void Shakedown::method2(double f1)
    panel.add("permissible", x, -traction(second.residual_high), "band");
    panel.add("permissible", x, -traction(second.residual_low), "band");
    panel.add("without resultant", x, -traction(second.natural_residual), "dashed");
-   panel.say("inside: 0.1");
+   panel.say("inside", "0.1");
 }
 
 void Shakedown::largest_load()

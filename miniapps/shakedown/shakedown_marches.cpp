@@ -105,7 +105,7 @@ void Shakedown::draw_optimal()
    }
    band.add("optimal", x, VectorXd(-traction(residual_q)), "dashed");
    // Tractions are singular at the ends: they are not the picture's scale.
-   for (Panel *panel : {&residual, &band}) { panel->say("inside: 0.1"); }
+   for (Panel *panel : {&residual, &band}) { panel->say("inside", "0.1"); }
 }
 
 void Shakedown::marches()
@@ -124,7 +124,7 @@ void Shakedown::marches()
                                                 {"outcome", "outcome"}});
    Panel &losses =
       study.lines("losses", "Loss in the cycle", "cycle", of_punch("loss × E'/P²", "loss"));
-   losses.say("scale: semilogy");
+   losses.say("scale", "semilogy");
    FrictionSolver solver(limit.reduced);
    Watch watch("march");
    VectorXd optimal = best().slip;

@@ -22,7 +22,7 @@ void add_bounds(Panel &panel, const VectorXd &x, double f, const MatrixXd &q, co
       panel.add(std::string("least at ") + loads[k], x, VectorXd(-f * p.col(k) - q.col(k)));
       panel.add(std::string("most at ") + loads[k], x, VectorXd(f * p.col(k) - q.col(k)));
    }
-   panel.say("inside: 0.1"); // singular at the ends
+   panel.say("inside", "0.1"); // singular at the ends
 }
 
 /// First and last place among these nodes between which y is positive, linear between nodes;
@@ -72,7 +72,7 @@ void Shakedown::draw_monolith()
    by_p.add("shear q", x, q_p);
    by_q.add("pressure p", x, p_q);
    by_q.add("shear q", x, q_q);
-   for (Panel *panel : {&by_p, &by_q}) { panel->say("inside: 0.1"); }
+   for (Panel *panel : {&by_p, &by_q}) { panel->say("inside", "0.1"); }
    const Index first = inner.front(), count = inner.back() - first + 1;
    for (const double load : {0.0, 0.2, 0.4, 0.6, 0.8})
    {
@@ -110,7 +110,7 @@ void Shakedown::draw_estimates(const Method2Estimate &second, double f1)
       panel.add("q", x, VectorXd(q.col(k)));
       panel.add("f p", x, VectorXd(f1 * p.col(k)));
       panel.add("-f p", x, VectorXd(-f1 * p.col(k)));
-      panel.say("inside: 0.1");
+      panel.say("inside", "0.1");
    };
    extreme(0, "at_largest", "Monolith at Qmax, f of method 1");
    extreme(1, "at_smallest", "Monolith at Qmin, f of method 1");
@@ -134,7 +134,7 @@ void Shakedown::draw_estimates(const Method2Estimate &second, double f1)
       lines("method2_residual", "Residual tractions of that slip", "-a q/P, a p/P");
    residual.add("shear", x, VectorXd(-traction(second.natural_residual)));
    residual.add("pressure", x, pressure);
-   residual.say("inside: 0.1");
+   residual.say("inside", "0.1");
    p.colwise() += pressure;
    add_bounds(lines("bounds_coupled", "Room with its pressure, f of method 1", "-a q/P"), x, f1,
               q, p);

@@ -1,10 +1,13 @@
-"""Drawing in the style of miniapps/plot/plot.py, with the thesis' axes."""
+"""Drawing in the style of cattaneo_show, with the thesis' axes."""
 
 from collections import defaultdict
 
-from runs import nan, plot  # noqa: F401  first: it chooses matplotlib's backend
+import matplotlib
+from runs import nan  # noqa: F401  first: it knows where cattaneo_show is
 
+matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from cattaneo_show import drawing as plot  # noqa: E402
 
 COLOURS, DASHES = plot.COLOURS, plot.DASHES
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans",
@@ -31,8 +34,8 @@ def panels(*chosen, columns=0, height=3.3):
 
 
 def draw(axes, run, name, only=None, rename=None, style="", **comments):
-    """A panel as plot.py draws it. `only`: the series whose names it accepts; `rename`: what they are called instead;
-    `style`: of all of them; comments replace those of the file: title, x, y, limits_x="0,1", scale, reversed."""
+    """A panel as cattaneo_show draws it. `only`: the series whose names it accepts; `rename`: what they are called instead;
+    `style`: of all of them; comments replace its words: title, x, y, limits_x="0,1", scale, reversed."""
     said, rows = run.panel(name)
     said = defaultdict(list, said)
     for key, text in comments.items():

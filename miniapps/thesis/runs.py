@@ -15,12 +15,12 @@ from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
-sys.path.insert(0, str(HERE.parent / "plot"))
-import plot  # noqa: E402  panels are read and drawn as miniapps/plot/plot.py does
+sys.path.insert(0, str(SOURCE / "python"))
+from cattaneo_show import panels  # noqa: E402
 
 
 class Run:
-    """What a command left: `json`, tables and panels of its CSV files, or why there is nothing."""
+    """The results of a command, `json`, with its panels, or why there is nothing."""
 
     def __init__(self, command, folder, seconds, fault=""):
         self.command, self.folder, self.seconds, self.fault = command, folder, seconds, fault
@@ -36,13 +36,13 @@ class Run:
         return found
 
     def panel(self, name):
-        """Comments and rows of a panel, as plot.read() gives them."""
-        return plot.read(self.folder / f"t_{name}.csv")
+        """Words and rows of a panel, as cattaneo_show.panel() gives them."""
+        return panels.panel(self.json, name)
 
     def series(self, name):
         """Curves of a panel of lines: {series: (x, y)}."""
         curves = {}
-        for (series, _), points in plot.series_of(*self.panel(name)).items():
+        for (series, _), points in panels.series_of(*self.panel(name)).items():
             curves.setdefault(series, ([], []))
             for axis, value in zip(curves[series], zip(*points)):
                 axis += value
@@ -150,7 +150,7 @@ class Runs:
                 if self.stopped:
                     return Run(command, part, 0, "it was stopped before it ran")
                 process = subprocess.Popen(
-                    [str(self.programs / words[0]), *words[1:], "--json", str(part / "run.json"), "--csv", str(part / "t")],
+                    [str(self.programs / words[0]), *words[1:], "--json", str(part / "run.json")],
                     stdout=output, stderr=subprocess.STDOUT, cwd=SOURCE, start_new_session=True,
                     env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
                 self.processes.add(process)

@@ -22,6 +22,7 @@ from . import (
     fretting as fretting,
     readout as readout,
     shakedown as shakedown,
+    show as show,
     wear as wear,
 )
 from ._core import (

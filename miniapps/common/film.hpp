@@ -28,11 +28,6 @@ private:
    std::size_t most_, stride_ = 1;
 };
 
-/// Writes the page of a run, whole or not at all: miniapps/plot/page.html with its data and its
-/// figure (SVG, or nothing) in it. InputError if it cannot.
-void write_page(const std::string &file, const nlohmann::ordered_json &run,
-                const std::string &figure);
-
 /// Zones as they are drawn: one of a node without neighbours has no length, and is given one.
 std::vector<cattaneo::Zone> drawn_zones(const cattaneo::ReducedProblem &problem,
                                         const cattaneo::ContactState &state);

@@ -1,46 +1,29 @@
-#!/usr/bin/env python3
-"""Draws panels written by the miniapps (--csv PREFIX, --plot FILE.png).
+"""Draws the panels of a run with matplotlib.
 
-usage: plot.py PANEL.csv [PANEL.csv ...] FILE.png     (also .pdf, .svg)
+A panel has words and rows (panels.py). Kinds: lines (series, style, x, y; style: line, marked, dashed, points, hollow,
+cross, star, band or thesis), zones (time, state, from, to; one row a zone, times in order), plan (a body of revolution:
+rings with their state and radii, and arrows: rate or total, radius, angle from the radial direction), field (series, x,
+y, value; one picture a series), scene (edges of bodies, contact nodes, normals, gaps, supports, loads), and table.
 
-A panel is a CSV file with comment lines that name it and its axes:
-
-    # kind: lines            or zones, plan, field, scene, or table
-    # title: ...             # x: label    # y: label
-    # limits x: lo,hi        an empty side is left to the data; also "limits y"
-    # inside: 0.1            limits of y by what lies inside, without that share at either end
-    # reversed: x            # scale: loglog, semilogx or semilogy
-    # shade: lo,hi,word      a stretch of x    # shade y: lo,hi,word
-    series,style,x,y         lines; style: line, marked, dashed, points, hollow, cross, star, band or thesis
-    time,state,from,to       zones; one row a zone, times in order
-    item,from,to             plan of a body of revolution: rings (state, radii) and arrows (rate or total, radius,
-                             angle from the radial direction)
-    series,x,y,value         field: one picture a series
-    item,x,y,dx,dy           scene: edges of bodies, contact nodes, normals, gaps, supports (held), loads
-
-A table is drawn as its comments say: "over: column", "curve: column=word" (several), "by: column=word" (one curve for
-each of its values), "mark: x,y" (values of the thesis).
+Words: title; x and y, the labels; limits x and limits y ("lo,hi", an empty side is left to the data); inside (limits of
+y by what lies inside, without that share at either end); reversed (x); scale (loglog, semilogx or semilogy); shade and
+shade y ("lo,hi,word"). A table is drawn as it says: over (a column), curve ("column=word"), by ("column=word": one curve
+for each of its values), mark ("x,y": values of the thesis).
 
 Colours are Okabe and Ito's, which the colour-blind can tell apart; lines differ in dashes and zones
 in hatching as well, so that a black-and-white print can be read.
 """
-import csv
+
 import math
-import os
-import sys
 from collections import OrderedDict, defaultdict
 
-try:
-    import matplotlib
-except ImportError:
-    if "CATTANEO_TRIES_PYTHONS" not in os.environ:  # a study tries others, and says it if none has it
-        print("plot.py: this Python has no matplotlib (Debian: python3-matplotlib, for /usr/bin/python3)", file=sys.stderr)
-    sys.exit(3)
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+import matplotlib
 from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Annulus, Patch, Polygon
+
+from .panels import Refused, panel, panel_names, series_of, value
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"]
 DASHED = (0, (5, 2))  # of companions
@@ -58,46 +41,6 @@ STATES = OrderedDict([
 def dashes(k):
     """Of curve k: where its colour comes again they are others."""
     return DASHES[(k + k // len(COLOURS)) % len(DASHES)]
-
-
-def read(path):
-    """Comments as lists by key, rows as dictionaries."""
-    comments, lines = defaultdict(list), []
-    with open(path, encoding="utf-8", newline="") as file:
-        for line in file:
-            if line.startswith("#"):
-                key, _, text = line[1:].partition(":")
-                comments[key.strip()].append(text.strip())
-            else:
-                lines.append(line)
-    return comments, list(csv.DictReader(lines))
-
-
-def value(text):
-    return float(text) if text else float("nan")
-
-
-def series_of(comments, rows):
-    """Points of each (series, style), from a panel of lines or from a table."""
-    series = OrderedDict()
-    if comments["kind"] == ["lines"]:
-        for row in rows:
-            series.setdefault((row["series"], row["style"]), []).append((value(row["x"]), value(row["y"])))
-        return series
-    over, curves = comments["over"][0], [text.split("=", 1) for text in comments["curve"]]
-    by, word = (comments["by"] or ["="])[0].split("=", 1)
-    for column, name in curves:
-        begun = set()  # the curves of one value are one series, with a gap between them
-        for row in rows:
-            points = series.setdefault((f"{word} = {row[by]}" if by else name, "line"), [])
-            if id(points) not in begun and points:
-                points.append((float("nan"), float("nan")))
-            begun.add(id(points))
-            points.append((value(row[over]), value(row[column])))
-    marks = [tuple(map(float, text.split(","))) for text in comments["mark"]]
-    if marks:
-        series[("thesis", "thesis")] = marks
-    return series
 
 
 def draw_lines(axes, comments, rows):
@@ -188,7 +131,7 @@ def draw_zones(axes, comments, rows):
     if marks:
         axes.plot([value(r["time"]) for r in marks], [value(r["from"]) for r in marks], "D", color="black",
                   markerfacecolor="white", markersize=5, label="thesis", zorder=5)
-        handles.append(plt.Line2D([], [], marker="D", color="black", markerfacecolor="white", linestyle="",
+        handles.append(Line2D([], [], marker="D", color="black", markerfacecolor="white", linestyle="",
                                   markersize=5, label="thesis"))
     legend_above(axes, handles)
 
@@ -223,7 +166,7 @@ def draw_plan(axes, comments, rows):
                                   radius * math.sin(turn) + 0.09 * outer * math.sin(turn + angle)),
                               arrowprops={"arrowstyle": "->", "color": colour, "linewidth": 1.0, "shrinkA": 0,
                                           "shrinkB": 0})
-        handles.append(plt.Line2D([], [], color=colour, marker=">", markersize=4,
+        handles.append(Line2D([], [], color=colour, marker=">", markersize=4,
                                   label="rate of slip" if kind == "rate" else "total slip"))
     axes.set_xlim(-1.05 * outer, 1.05 * outer)
     axes.set_ylim(-1.05 * outer, 1.05 * outer)
@@ -297,34 +240,37 @@ DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": d
         "scene": draw_scene}
 
 
-def main(arguments):
-    if len(arguments) < 2:
-        sys.exit(__doc__)
-    *files, picture = arguments
+STYLE = {"font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans"}
+
+
+def figure(run, names=None):
+    """All panels of a run, or those of these names."""
     panels = []
-    for path in files:
-        comments, rows = read(path)
-        if (comments["kind"] or [""])[0] not in DRAW:
-            sys.exit(f"plot.py: {path}: there is no line '# kind: ' with one of {', '.join(DRAW)}")
-        if comments["kind"] != ["field"]:
-            panels.append((comments, rows))
+    for name in panel_names(run) if names is None else names:
+        said, rows = panel(run, name)
+        if said["kind"] != ["field"]:
+            panels.append((said, rows))
             continue
-        for name in OrderedDict.fromkeys(row["series"] for row in rows):
-            own = defaultdict(list, comments, title=[f"{comments['title'][0]}, {name}"])
-            panels.append((own, [row for row in rows if row["series"] == name]))
+        for series in OrderedDict.fromkeys(row["series"] for row in rows):
+            own = defaultdict(list, said, title=[f"{said['title'][0]}, {series}"])
+            panels.append((own, [row for row in rows if row["series"] == series]))
+    if not panels:
+        raise Refused("the run has nothing to draw")
     columns = 1 if len(panels) == 1 else 2 if len(panels) < 7 else 3
     height = -(-len(panels) // columns)
-    plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans"})
-    figure, grid = plt.subplots(height, columns, figsize=(5.6 if columns == 1 else 4.8 * columns, 3.7 * height),
-                                squeeze=False)
-    for axes in grid.flat[len(panels):]:
-        axes.remove()
-    for axes, (comments, rows) in zip(grid.flat, panels):
-        DRAW[comments["kind"][0]](axes, comments, rows)
-        finish(axes, comments)
-    figure.tight_layout()
-    figure.savefig(picture, dpi=110)
+    with matplotlib.rc_context(STYLE):
+        made = Figure(figsize=(5.6 if columns == 1 else 4.8 * columns, 3.7 * height))
+        grid = made.subplots(height, columns, squeeze=False)
+        for axes in grid.flat[len(panels):]:
+            axes.remove()
+        for axes, (said, rows) in zip(grid.flat, panels):
+            DRAW[said["kind"][0]](axes, said, rows)
+            finish(axes, said)
+        made.tight_layout()
+    return made
 
 
-if __name__ == "__main__":
-    main(sys.argv[1:])
+def save(made, file, **options):
+    """Writes a figure. The width of hatches is asked for only now."""
+    with matplotlib.rc_context(STYLE):
+        made.savefig(file, **options)

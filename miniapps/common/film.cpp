@@ -1,16 +1,10 @@
-#include "common/page.hpp"
+#include "common/film.hpp"
 
-#include "common/figure.hpp"
-#include "common/shipped.hpp"
 #include "common/text.hpp"
 
 #include <algorithm>
-#include <cattaneo/input_error.hpp>
-#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 namespace miniapp
 {
@@ -102,26 +96,6 @@ ordered_json Film::json() const
    film["frames"] = frames_;
    if (frames_.back()["row"] != last_["row"]) { film["frames"].push_back(last_); }
    return film;
-}
-
-void write_page(const std::string &file, const ordered_json &run, const std::string &figure)
-{
-   const std::string place = shipped("plot/page.html");
-   std::ifstream in(place);
-   require(in.good(), "option --html: cannot read '", place, "'");
-   std::ostringstream page;
-   page << in.rdbuf();
-   std::string text = page.str(), data = run.dump();
-   // Within a script "</" would end it.
-   for (std::size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3)
-   {
-      data.replace(at, 2, "<\\/");
-   }
-   for (const auto &[mark, content] : {std::pair{"@RUN@", data}, {"@FIGURE@", figure}})
-   {
-      text.replace(text.find(mark), std::string(mark).size(), content);
-   }
-   write_whole(file, text);
 }
 
 std::vector<Zone> drawn_zones(const ReducedProblem &problem, const ContactState &state)

@@ -1,0 +1,81 @@
+"""The command: pictures and pages of a run's JSON."""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+from . import Refused, page, panel_names, plot, read
+from .panels import pieces, unquoted
+from .sweep import sweep
+
+WITHOUT_MATPLOTLIB = 3
+
+
+def find_matplotlib(arguments):
+    """Is it here? Where another Python has it, that one goes on in this one's place."""
+    try:
+        import matplotlib  # noqa: F401
+
+        return True
+    except ImportError:
+        pass
+    tried = os.environ.get("CATTANEO_TRIED_PYTHONS", "").split(":")
+    here = os.path.dirname(os.path.abspath(__file__))
+    for other in ("python3", "/usr/bin/python3"):
+        if other in tried or not shutil.which(other):
+            continue
+        if subprocess.run([other, "-c", "import matplotlib"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
+            os.environ["CATTANEO_TRIED_PYTHONS"] = ":".join([*tried, other])
+            os.execvp(other, [other, here, *arguments])
+    return False
+
+
+def of_sweep(file, arguments):
+    """Runs the plan of a program, which goes with it."""
+    with open(file, encoding="utf-8") as text:
+        plan = json.load(text)
+    try:
+        draws = bool(plan["options"]["plot"] or plan["options"]["html"]) and find_matplotlib(arguments)
+    finally:
+        os.unlink(file)
+    return sweep(plan, draws)
+
+
+def main(arguments=None):
+    arguments = sys.argv[1:] if arguments is None else arguments
+    parser = argparse.ArgumentParser(
+        prog="show", description="Draws a run of Cattaneo's programs, from the JSON that --json wrote. Without --plot and --html: the names of its panels.")
+    parser.add_argument("run", metavar="RUN.json", nargs="?")
+    parser.add_argument("--plot", metavar="FILE", help="picture: png, pdf or svg (needs matplotlib)")
+    parser.add_argument("--panels", metavar="NAMES", help="panels of the picture, in this order, between blanks, those with blanks in quotes (default: all)")
+    parser.add_argument("--html", metavar="FILE", help="page of the run (its figures need matplotlib; its slider, that the run had --html)")
+    parser.add_argument("--sweep", metavar="PLAN", help=argparse.SUPPRESS)  # of a program's option --sweep
+    options = parser.parse_args(arguments)
+    try:
+        if options.sweep:
+            return of_sweep(options.sweep, arguments)
+        if options.run is None:
+            raise Refused("the file of a run must be named (./run NAME --json RUN.json writes it)")
+        draws = bool(options.plot or options.html) and find_matplotlib(arguments)
+        run = read(options.run)
+        if options.panels is not None and not options.plot:
+            raise Refused("option --panels does nothing: it goes with --plot")
+        if options.html:
+            page(run, options.html, figure=draws)
+            if not draws and run["shown"]["panels"]:
+                print("the page has no figures: they need matplotlib (Debian: python3-matplotlib)")
+        if options.plot and not draws:
+            if "CATTANEO_PROGRAM" not in os.environ:  # a program says it itself
+                print("error: --plot needs matplotlib (Debian: python3-matplotlib)", file=sys.stderr)
+            return WITHOUT_MATPLOTLIB
+        if options.plot:
+            plot(run, options.plot, None if options.panels is None else [unquoted(name) for name in pieces("option --panels", options.panels, " \t,")])
+        if not options.plot and not options.html:
+            print("\n".join(panel_names(run)))
+    except (Refused, OSError, ValueError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0

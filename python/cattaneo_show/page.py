@@ -1,0 +1,36 @@
+"""The page of a run: one file, with nothing from elsewhere."""
+
+import io
+import json
+import pathlib
+
+from .panels import read
+from .tables import write
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def page(run, file, figure=True):
+    """Writes the page of a run, whole or not at all.
+
+    run: what read() returned, or the name of its file. figure: whether the picture of its panels is in it, which needs
+    matplotlib. Its slider has the increments of runs that were written with --html. Refused if the file cannot be
+    written."""
+    run = run if isinstance(run, dict) else read(run)
+    shown = run["shown"]
+    data = {"study": shown["study"], "status": run.get("status", ""), "message": run.get("message", ""), "event": shown["event"],
+            "seconds": run.get("seconds"), "warnings": run.get("warnings", []), "options": shown["options"], "values": shown["values"],
+            "tables": shown["tables"], "films": shown["marches"], "more_films": shown["more_marches"]}
+    text = (HERE / "page.html").read_text(encoding="utf-8")
+    # Within a script "</" would end it.
+    text = text.replace("@RUN@", json.dumps(data, ensure_ascii=False).replace("</", "<\\/"))
+    text = text.replace("@FIGURE@", svg(run) if figure and shown["panels"] else "")
+    write(file, text)
+
+
+def svg(run):
+    from .drawing import figure, save
+
+    drawn = io.StringIO()
+    save(figure(run), drawn, format="svg")
+    return drawn.getvalue()[drawn.getvalue().index("<svg"):]

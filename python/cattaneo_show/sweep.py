@@ -1,0 +1,307 @@
+"""Sweeps: many runs of one program, as many at a time as there are cores, and a table of their results.
+
+The program has checked keys and values of all points, and says how each is run (--sweep). A point is a process of its own
+with one thread. Ctrl-C keeps the points that were computed."""
+
+import ctypes
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from .page import page
+from .panels import Refused, pieces, unquoted
+from .tables import Table, csv_of_lines, text_of, write
+
+# Sizes and times of a run, and residuals: no results to be listed unasked.
+NO_RESULTS = {"contact_nodes", "dofs", "seconds", "seconds_condensation", "time", "event_time", "largest_residual", "energy_imbalance"}
+MOST_SHOWN = 9  # columns on the screen, and panels
+
+
+class Point:
+    """One run: its values, its command, and what it left."""
+
+    def __init__(self, values, words):
+        self.values, self.words = values, words
+        self.results, self.status, self.message, self.ran, self.ended_well = {}, "", "", False, False
+
+    def finish(self, code, results, errors):
+        """Of a process that has ended; a signal is a negative exit code."""
+        self.ran, self.ended_well = True, code == 0
+        if results.exists():
+            self.results = json.loads(results.read_text(encoding="utf-8"))
+            self.status, self.message = self.results["status"], self.results.get("message", "")
+            return
+        said = [line[7:] for line in errors.read_text(encoding="utf-8", errors="replace").splitlines() if line.startswith("error: ")]
+        self.message = said[-1] if said else ""
+        self.status = "refused" if code == 1 else "stopped" if code == -signal.SIGINT else f"ended by signal {max(0, -code)}"
+
+
+def places(wanted):
+    """Places of results (dissipation.0) between blanks or commas, as their words; those with blanks are in quotes."""
+    names = [unquoted(piece) for piece in pieces("option --sweep-results", wanted, " \t,")]
+    return {name: [unquoted(word) for word in pieces("option --sweep-results", name, ".")] for name in names}
+
+
+def result(results, path):
+    """A number or a word by its place (dissipation.0); None if there is none."""
+    at = results
+    for part in path:
+        if isinstance(at, dict) and part in at:
+            at = at[part]
+        elif isinstance(at, list) and part.isdigit() and int(part) < len(at):
+            at = at[int(part)]
+        else:
+            return None
+    return None if isinstance(at, (dict, list)) else at
+
+
+def is_number(x):
+    return isinstance(x, (int, float)) and not isinstance(x, bool)
+
+
+def die_with_parent():
+    """In a new process: Ctrl-C is for the sweep, which passes it on, and no point outlives it."""
+    os.setpgid(0, 0)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(1, signal.SIGTERM)
+
+
+class Interrupt:
+    """The first Ctrl-C stops the sweep, a second one ends it at once."""
+
+    def __init__(self):
+        self.came = False
+        signal.signal(signal.SIGINT, self)
+
+    def __call__(self, *_):
+        self.came = True
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def run_points(program, points, wanted, warn):
+    """All of them, in their order, unless Ctrl-C comes. Warns at the first that ends well of a wanted result that it does not
+    have."""
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(("OMPI_", "PMIX_"))}
+    environment["OPENBLAS_NUM_THREADS"] = "1"
+    cores, begun, ended, running, interrupt, told = os.cpu_count() or 1, time.monotonic(), 0, {}, Interrupt(), False
+    waiting, line = iter(enumerate(points)), Progress()
+    with tempfile.TemporaryDirectory(prefix="cattaneo_sweep_") as folder:
+        folder = pathlib.Path(folder)
+
+        def start(number, point):
+            results, errors = folder / f"{number}.json", folder / f"{number}.err"
+            with open(errors, "wb") as file:
+                process = subprocess.Popen([program, *point.words, "--json", str(results)], stdin=subprocess.DEVNULL, env=environment,
+                                           stdout=subprocess.DEVNULL, stderr=file, preexec_fn=die_with_parent)
+            running[process] = (point, results, errors)
+
+        left = True
+        while left or running:
+            while left and len(running) < cores:
+                following = None if interrupt.came else next(waiting, None)
+                left = following is not None
+                if left:
+                    start(*following)
+            if interrupt.came and not told:
+                told = True
+                for process in running:
+                    process.send_signal(signal.SIGINT)
+            for process in [process for process in running if process.poll() is not None]:
+                point, results, errors = running.pop(process)
+                point.finish(process.returncode, results, errors)
+                ended += 1
+                if point.ended_well and wanted is not None:
+                    for name, path in wanted.items():
+                        if result(point.results, path) is None:
+                            warn(f"option --sweep-results: the first point that ended has no number or word of the name '{name}'")
+                    wanted = None
+            line.show(f"sweep: {ended} of {len(points)} points, {time.monotonic() - begun:.0f} s "
+                      + ("(stops; Ctrl-C ends it now)" if interrupt.came else "(Ctrl-C writes what there is)"))
+            time.sleep(0.01)
+    line.clear()
+
+
+class Progress:
+    """A line on a terminal, after two seconds and twice a second."""
+
+    def __init__(self):
+        self.begun = self.last = time.monotonic()
+        self.shown = False
+
+    def show(self, text):
+        now = time.monotonic()
+        if sys.stderr.isatty() and now - self.begun > 2 and now - self.last > 0.5:
+            print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
+            self.last, self.shown = now, True
+
+    def clear(self):
+        if self.shown:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def single_numbers(points, keys):
+    """Names of results that are single numbers in any point, but for sizes, times, errors and residuals."""
+    known = {*NO_RESULTS, *(key["name"] for key in keys)}
+    return list(dict.fromkeys(name for point in points for name, x in point.results.items()
+                              if is_number(x) and "_error" not in name and name not in known))
+
+
+def varies(points, path):
+    """Does a result differ from point to point, by more than round-off?"""
+    first = result(points[0].results, path)
+    for point in points:
+        x = result(point.results, path)
+        if is_number(x) and is_number(first):
+            if abs(x - first) > 1e-9 * max(abs(x), abs(first)):
+                return True
+        elif x != first:
+            return True
+    return False
+
+
+def drawn_over(keys):
+    """The key with the most numbers, the last of such; None if none has two."""
+    best = None
+    for key in keys:
+        if len(key["values"]) > 1 and all(map(is_number, key["values"])) and (best is None or len(key["values"]) >= len(best["values"])):
+            best = key
+    return best
+
+
+def curves(keys, points, names):
+    """A panel for each result over one key; of the other keys a curve each."""
+    over, panels = drawn_over(keys), []
+    if over is None:
+        return panels
+    k = keys.index(over)
+    for name, path in names.items():
+        parts = {}
+        for point in points:
+            y = result(point.results, path)
+            if not is_number(y) or not point.ended_well:
+                continue
+            series = ", ".join(f"{key['name']} = {text_of(value)}" for j, (key, value) in enumerate(zip(keys, point.values)) if j != k)
+            part = parts.setdefault(series, {"series": series, "style": "marked", "x": [], "y": []})
+            part["x"].append(float(f"{point.values[k]:.9g}"))
+            part["y"].append(float(f"{y:.9g}"))
+        if parts:
+            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": name, "x": over["name"], "y": name,
+                           "parts": list(parts.values())})
+    return panels
+
+
+def sweep(plan, draws):
+    """Runs the points of a plan and reports them: prints a table, writes JSON, CSV, picture and page. Returns the exit code:
+    0 if all points converged, else 2.
+
+    plan: what the program wrote (program, study, keys, points, options, blas_kernels). draws: is there matplotlib?"""
+    begun, options, keys = time.monotonic(), plan["options"], plan["keys"]
+    points = [Point(point["values"], point["words"]) for point in plan["points"]]
+    asked, wanted, warnings = len(points), places(options["sweep-results"]), []
+    if options["plot"] and drawn_over(keys) is None:
+        raise Refused("option --plot: no key of the sweep has two numbers to draw results over")
+
+    def warn(sentence):
+        if sentence not in warnings:
+            warnings.append(sentence)
+            print("warning: " + sentence, flush=True)
+
+    run_points(plan["program"], points, wanted or None, warn)
+    points = [point for point in points if point.ran]
+    if points and all(point.status == "refused" for point in points):
+        raise Refused("every point of the sweep is refused, the first one: " + points[0].message)
+    singles = single_numbers(points, keys)
+    names = wanted or {name: [name] for name in singles}
+    missing = [name for name, path in names.items() if points and all(result(point.results, path) is None for point in points)]
+    allowed = f"must be one of {', '.join(singles)}, or a place as levels.0.slip, with blanks in quotes"
+    if names and len(missing) == len(names) and any(point.ended_well for point in points):
+        raise Refused(f"option --sweep-results: no point has a number or a word of the name '{missing[0]}', {allowed}")
+    run = {}
+    for name in missing:  # what was computed stays, and the others that were asked for
+        run["message"] = f"option --sweep-results: no point has a number or a word of the name '{name}', {allowed}"
+        print("\n" + run["message"])
+    shown = [name for name, path in names.items() if wanted or (points and varies(points, path))][:MOST_SHOWN]
+    table = table_of(keys, points, names, shown)
+    table.show()
+    for sentence in dict.fromkeys(sentence for point in points for sentence in point.results.get("warnings", [])):
+        warn(sentence)
+    for message in sorted({point.message for point in points if point.status == "refused"}):
+        print("refused: " + message)
+    if len(shown) < len(names):
+        print(f"{len(names) - len(shown)} more results, which do not vary or are too many, are in --json and --csv alone; "
+              "--sweep-results names those to be shown")
+    converged = sum(point.ended_well for point in points)
+    panels = curves(keys, points, {name: names[name] for name in shown or list(names)[:1]})
+    run.update(points=len(points), status="ended early" if missing else "converged")
+    if converged < asked:
+        run["status"] = "stopped" if len(points) < asked else "ended early"
+        run["message"] = f"{converged} of {asked} points converged"
+        print("\n" + run["message"])
+    counters = {}
+    for point in points:
+        for name, count in point.results.get("counters", {}).items():
+            counters[name] = counters.get(name, 0) + count
+    run.update(sweep=table.rows, references=[], seconds=time.monotonic() - begun, counters=counters, blas_kernels=plan["blas_kernels"],
+               warnings=warnings)
+    run["shown"] = {"study": plan["study"], "event": "", "options": options, "values": [], "tables": [table.printed()] if points else [],
+                    "panels": panels, "marches": [], "more_marches": 0}
+    if options["verbose"]:
+        print(f"\nWhat it took, {run['seconds']:.3g} s")
+        for name, count in counters.items():
+            if count > 0:
+                print(f"   {name.replace('_', ' '):40} {count}")
+    sys.stdout.flush()
+    report(run, table, options, draws)
+    return 0 if converged == asked and not missing else 2
+
+
+def table_of(keys, points, names, shown):
+    """A row for each point, in their order."""
+    events = any("event_loads" in point.results for point in points)
+    table = Table("sweep", [(key["name"], key["name"], "%g") for key in keys]
+                  + [(name, name if name in shown else "", "%.5g") for name in names]
+                  + [("status", "status", "")] + ([("event_time", "", ""), ("", "at", "")] if events else []) + [("message", "", "")])
+    for point in points:
+        row = [*point.values, *(result(point.results, path) for path in names.values()), point.status]
+        if events:
+            ended = "event_loads" in point.results
+            row += [point.results["event_time"] if ended else None, point.results["shown"]["event"] if ended else ""]
+        more = {"event_loads": point.results["event_loads"]} if "event_loads" in point.results else {}
+        table.row([*row, point.message], more)
+    return table
+
+
+def report(run, table, options, draws):
+    """JSON, CSV, page and picture, as they were asked for. A run that cannot be drawn keeps its JSON."""
+    from . import plot
+
+    def wanted(name):
+        return options[name] or ""
+
+    picture = wanted("plot")
+    kept = wanted("json") or (picture + ".json" if picture and not draws else "")
+    if kept:
+        write(kept, json.dumps(run, ensure_ascii=False, indent=1) + "\n")
+    if wanted("csv"):
+        write(f"{wanted('csv')}_sweep.csv", table.csv())
+        for panel in run["shown"]["panels"]:
+            write(f"{wanted('csv')}_{panel['name']}.csv", csv_of_lines(panel))
+    if wanted("html"):
+        page(run, wanted("html"), figure=draws)
+        if not draws and run["shown"]["panels"]:
+            print("the page has no figures: they need matplotlib (Debian: python3-matplotlib)")
+    if not picture:
+        return
+    if not run["shown"]["panels"]:
+        print("no picture: no point ended with a result to draw")
+        return
+    if not draws:
+        raise Refused(f"option --plot: '{picture}' was not made; it needs matplotlib (Debian: python3-matplotlib); the sweep is in "
+                      f"'{kept}', and this makes it later: ./run show {kept} --plot {picture}")
+    plot(run, picture)

@@ -1,0 +1,71 @@
+"""cattaneo.show: what is drawn are the numbers of the JSON, and a page holds them."""
+
+import json
+import re
+
+import cattaneo
+import pytest
+from cattaneo import show
+
+RUN = {
+    "status": "converged", "seconds": 0.5, "warnings": ["a <b> & c"],
+    "loop": [{"load": 0.0, "way": 0.0, "f": 0.2}, {"load": 1.0, "way": 2.5, "f": 0.2}, {"load": 1.0, "way": 2.0, "f": 0.4}],
+    "shown": {
+        "study": "made", "event": "", "options": {"nodes": 3}, "values": [], "tables": [], "marches": [], "more_marches": 0,
+        "panels": [
+            {"name": "p", "kind": "lines", "title": "Pressure", "x": "x/a", "y": "p", "limits y": "0,",
+             "parts": [{"series": "now", "style": "line", "x": [0, 1, 2], "y": [1, None, 3]}, {"series": "then", "style": "points", "x": [0], "y": [2]}]},
+            {"name": "zones in time", "kind": "zones", "title": "Zones", "x": "t", "y": "s",
+             "parts": [{"state": ["stick", "slip", "stick"], "time": [1, 1, 2], "from": [0, 1, 0], "to": [1, 4, 4]}]},
+            {"name": "loop", "kind": "table", "title": "Loop", "x": "way", "y": "load", "over": "way", "curve": "load=load", "by": "f=f"},
+        ],
+    },
+}  # fmt: skip
+
+
+@pytest.fixture
+def kept(tmp_path):
+    file = tmp_path / "run.json"
+    file.write_text(json.dumps(RUN), encoding="utf-8")
+    return file
+
+
+def test_panels_are_those_of_the_run(kept):
+    run = show.read(kept)
+    assert show.panel_names(run) == ["p", "zones in time", "loop"]
+    words, rows = show.panel(run, "zones in time")
+    assert words["title"] == ["Zones"]
+    assert rows[1] == {"state": "slip", "time": 1, "from": 1, "to": 4}
+    assert show.panel(run, "loop")[1] == RUN["loop"]
+    with pytest.raises(show.Refused, match="no panel 'q', must be one of p, zones in time, loop"):
+        show.panel(run, "q")
+
+
+def test_what_is_drawn_are_its_numbers(kept, tmp_path):
+    pytest.importorskip("matplotlib")
+    figure = show.plot(kept, tmp_path / "p.png", panels=["p", "loop"])
+    assert (tmp_path / "p.png").stat().st_size > 5000
+    pressure, loop = figure.axes
+    assert pressure.get_title() == "Pressure" and pressure.get_ylim()[0] == 0
+    drawn = [line.get_xydata().tolist() for line in pressure.get_lines()]
+    assert drawn[0][::2] == [[0, 1], [2, 3]] and drawn[0][1][1] != drawn[0][1][1]  # not known: a gap
+    assert drawn[1] == [[0, 2]]
+    # A curve for each value of the column that tells them apart.
+    curves = {line.get_label(): line.get_xydata().tolist() for line in loop.get_lines()}
+    assert curves == {"f = 0.2": [[0, 0], [2.5, 1]], "f = 0.4": [[2, 1]]}
+
+
+def test_a_page_holds_the_run(kept, tmp_path):
+    page = tmp_path / "page.html"
+    show.page(kept, page, figure=False)
+    text = page.read_text(encoding="utf-8")
+    data = json.loads(re.search(r'id="run">(.*?)</script>', text, re.S)[1])
+    assert data["study"] == "made" and data["warnings"] == RUN["warnings"] and data["options"] == {"nodes": 3}
+    with pytest.raises(show.Refused, match="cannot be written"):
+        show.page(kept, tmp_path / "none" / "page.html", figure=False)
+
+
+def test_it_is_a_package_of_its_own():
+    import cattaneo_show
+
+    assert cattaneo.show.plot is cattaneo_show.plot

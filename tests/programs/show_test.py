@@ -1,0 +1,109 @@
+"""Pictures and pages are made from the JSON of a run by cattaneo_show, at once or later; where that cannot be the JSON stands."""
+
+import json
+import os
+import subprocess
+import sys
+
+from programs import ROOT
+
+SHOW = ROOT / "python" / "cattaneo_show"
+HERTZ = ["-nodes", "33"]
+
+
+def show(*words, code=0, **environment):
+    """The reader, run by the Python that programs run it with, or by another one that it finds to have matplotlib."""
+    done = subprocess.run(["python3", SHOW, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False, env={**os.environ, **environment})
+    assert done.returncode == code, done.stdout
+    return done.stdout
+
+
+def program(run, *words, path, code):
+    """What hertz prints where the only Python is the one of this path."""
+    done = subprocess.run([run.programs / "hertz", *HERTZ, *map(str, words)], cwd=run.folder, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, check=False, env={**os.environ, "PATH": str(path)})
+    assert done.returncode == code, done.stdout
+    return done.stdout
+
+
+def refused(output, *words):
+    """One sentence that holds all words."""
+    error = output[output.index("error: "):]
+    assert error.count("\n") == 1 and all(word in error for word in words), error
+    return error
+
+
+def bare_python(run):
+    """A folder with a python3 that has no packages, and finds no other Python."""
+    folder = run.folder / "bin"
+    folder.mkdir()
+    bare = folder / "python3"
+    bare.write_text(f"#!/bin/sh\nCATTANEO_TRIED_PYTHONS=python3:/usr/bin/python3 exec '{sys.executable}' -S \"$@\"\n", encoding="utf-8")
+    bare.chmod(0o755)
+    return folder
+
+
+def test_what_is_drawn_later_is_the_same(run):
+    """The picture and the page of a kept JSON are those that the run itself left; the JSON is no other with them."""
+    kept, names = run.folder / "kept.json", ("now.svg", "now.html", "later.svg", "later.html")
+    now, page, later, later_page = (run.folder / name for name in names)
+    subprocess.run([run.programs / "hertz", *HERTZ, "--json", kept, "--plot", now, "--html", page], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    assert show(kept, "--plot", later, "--html", later_page) == ""
+
+    def drawn(file):  # matplotlib writes the time, and names that are drawn by lot
+        return [line for line in file.read_text(encoding="utf-8").splitlines() if "<path d=" in line or line.startswith("L ")]
+
+    assert len(drawn(now)) > 100 and drawn(now) == drawn(later)
+    data = [file.read_text(encoding="utf-8").split('id="run">')[1].split("</script>")[0] for file in (page, later_page)]
+    assert data[0] == data[1] and json.loads(data[0])["films"], data[0][:200]
+    assert sorted(file.name for file in run.folder.iterdir()) == sorted(["kept.json", *names])
+
+
+def test_panels_are_chosen_by_name(run):
+    """Without options their names are listed; the chosen ones alone are drawn, and no others are known."""
+    kept, picture = run.folder / "kept.json", run.folder / "one.svg"
+    subprocess.run([run.programs / "march", "-case", "problems/sliders.case.json", "--json", kept], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    names = show(kept).splitlines()
+    titles = {panel["name"]: panel["title"] for panel in json.loads(kept.read_text(encoding="utf-8"))["shown"]["panels"]}
+    assert names == list(titles) and len(names) > 1
+    show(kept, "--plot", picture, "--panels", f"'{names[-1]}'")
+    text = picture.read_text(encoding="utf-8")
+    assert f"<!-- {titles[names[-1]]} -->" in text and f"<!-- {titles[names[0]]} -->" not in text
+    refused(show(kept, "--plot", picture, "--panels", "pressur", code=1), "no panel 'pressur'", names[0])
+    refused(show(kept, "--panels", names[0], code=1), "--panels", "goes with --plot")
+
+
+def test_what_is_no_run_is_refused(run):
+    nothing, text, other = run.folder / "no.json", run.write("text.json", "x"), run.write("other.json", '{"a": 1}')
+    for file, words in ((nothing, ["cannot be read"]), (text, ["is no JSON"]), (other, ["is no run", "--json"])):
+        refused(show(file, "--html", run.folder / "x.html", code=1), str(file), *words)
+    assert not (run.folder / "x.html").exists()
+
+
+def test_without_matplotlib_the_run_is_not_lost(run):
+    """The page needs none; of a picture the JSON stands, and the sentence has the command that draws it later."""
+    path = bare_python(run)
+    made = program(run, "--html", "page.html", path=path, code=0)
+    assert "no figures" in made, made
+    page = run.text("page.html")
+    assert "<svg width" in page and "matplotlib" not in page and not (run.folder / "page.html.json").exists()
+    failed = program(run, "--plot", "picture.png", path=path, code=1)
+    error = refused(failed, "option --plot", "'picture.png' was not made", "python3-matplotlib", "picture.png.json")
+    assert json.loads(run.text("picture.png.json"))["status"] == "converged"
+    later = error[error.index("python3 '"):].strip()
+    subprocess.run(later, shell=True, check=True, cwd=run.folder)
+    assert (run.folder / "picture.png").stat().st_size > 5000
+
+
+def test_without_python_the_run_is_not_lost(run):
+    empty = run.folder / "empty"
+    empty.mkdir()
+    for option, file in (("--plot", "x.png"), ("--html", "x.html")):
+        failed = program(run, option, file, path=empty, code=1)
+        refused(failed, "option " + option, file, "needs Python 3", file + ".json")
+        assert json.loads(run.text(file + ".json"))["status"] == "converged" and not (run.folder / file).exists()
+    # What --json named is what stands.
+    failed = program(run, "--json", "kept.json", "--plot", "y.png", path=empty, code=1)
+    refused(failed, "'kept.json'")
+    assert (run.folder / "kept.json").exists() and not (run.folder / "y.png.json").exists()
