@@ -601,4 +601,18 @@ TEST(WeakDuality, BoundsTheLimitFromAnyMotion)
    EXPECT_GT(close, 0);
 }
 
+TEST(WeakDuality, ClosesTheGapOfDiscsThatNearlyWedge)
+{
+   // Mechanisms at the surface of their cones, which have no room for a repair of their own.
+   for (const unsigned seed : {33, 86, 138})
+   {
+      SCOPED_TRACE(seed);
+      const RandomLimit random = random_limit(seed, 2);
+      const LimitReport report = friction_limit(limit_problem(random.problem, random.cycle), 1);
+      EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
+      EXPECT_LE(report.violation, 0);
+      EXPECT_LE(report.upper - report.lower, 1e-6 * report.upper);
+   }
+}
+
 } // namespace

@@ -264,23 +264,39 @@ double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &
 
    Eigen::MatrixXd opening;
    Eigen::VectorXd imbalance;
-   double share = none; // of the largest imbalance in what is in balance
-   constexpr double tiny = std::numeric_limits<double>::min();
-   constexpr int max_rounds = 30;
-   for (int round = 0;; ++round)
+   // Balances the motions to round-off. False if 30 repairs do not suffice.
+   const auto repaired = [&]
    {
-      limit = limit.cwiseMax(tangential_lengths(slip, n) * (1 + 1e-15));
-      opening = mechanism.opening(programme);
-      const Eigen::VectorXd slips = slip.rowwise().sum(), openings = opening.rowwise().sum();
-      imbalance = problem.A() * slips + problem.B().transpose() * openings;
-      const Eigen::VectorXd gross =
-         problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
-         problem.B().transpose().cwiseAbs() * opening.cwiseAbs().rowwise().sum();
-      // Until it is round-off: small, and no longer halved.
-      const double before = share;
-      share = (imbalance.array().abs() / (gross.array() + tiny)).maxCoeff();
-      if (share <= round_off || (share <= 1e-10 && share > 0.5 * before)) { break; }
-      if (round == max_rounds || !balance(programme, mechanism)) { return none; }
+      double share = none; // of the largest imbalance in what is in balance
+      constexpr double tiny = std::numeric_limits<double>::min();
+      constexpr int max_rounds = 30;
+      for (int round = 0;; ++round)
+      {
+         limit = limit.cwiseMax(tangential_lengths(slip, n) * (1 + 1e-15));
+         opening = mechanism.opening(programme);
+         const Eigen::VectorXd slips = slip.rowwise().sum(), openings = opening.rowwise().sum();
+         imbalance = problem.A() * slips + problem.B().transpose() * openings;
+         const Eigen::VectorXd gross =
+            problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
+            problem.B().transpose().cwiseAbs() * opening.cwiseAbs().rowwise().sum();
+         // Until it is round-off: small, and no longer halved.
+         const double before = share;
+         share = (imbalance.array().abs() / (gross.array() + tiny)).maxCoeff();
+         if (share <= round_off || (share <= 1e-10 && share > 0.5 * before)) { return true; }
+         if (round == max_rounds || !balance(programme, mechanism)) { return false; }
+      }
+   };
+   // At the surface of its cones a mechanism has no room for its repair. Interior points come
+   // nearer to the surface than their equations are in balance. Such a mechanism is first moved
+   // inside by a share of its limits, which costs about that share of the works.
+   const ConeMechanism given = mechanism;
+   double inward = 0;
+   while (!repaired())
+   {
+      inward = std::max(1e-10, 10 * inward);
+      if (inward > 2e-5) { return none; }
+      mechanism = given;
+      limit *= 1 + inward;
    }
 
    const StuckForces &loads = programme.loads;

@@ -124,8 +124,11 @@ FrictionLimit::Trial FrictionLimit::attempt(double friction)
    const Eigen::VectorXd slip = residual_.flexibility * trial.solution.r;
    ConeMechanism mechanism = trial.solution.mechanism;
    // Weak duality bounds the clearance from above. A negative bound proves that no slip
-   // suffices with this friction.
-   const double bound = weak_duality_bound(programme, reduced_, mechanism, slip_size(slip));
+   // suffices with this friction. There is none where a state with positive clearance is known.
+   const double bound =
+      trial.solution.theta > 0
+         ? infinity
+         : weak_duality_bound(programme, reduced_, mechanism, slip_size(slip));
    const double before = report_.upper;
    take(slip);
    trial.excluded = bound < 0;
@@ -179,13 +182,13 @@ LimitReport FrictionLimit::conclude(const std::string &message)
    }
    if (!std::isfinite(report_.upper))
    {
-      return ended(LimitStatus::failed, "no admissible slip was found. " + message);
+      return ended(LimitStatus::failed, "no admissible slip was found" + because(message));
    }
    if (report_.upper - report_.lower <= settings_.tolerance * report_.upper)
    {
       return ended(LimitStatus::certified, "");
    }
-   return ended(LimitStatus::bracketed, "the gap between the bounds is not closed. " + message);
+   return ended(LimitStatus::bracketed, not_closed(message));
 }
 
 LimitReport FrictionLimit::find()

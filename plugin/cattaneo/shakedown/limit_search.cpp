@@ -29,6 +29,16 @@ LimitReport LimitSearch::ended(LimitStatus status, const std::string &message)
    return report_;
 }
 
+std::string because(const std::string &message)
+{
+   return " (" + (message.empty() ? "the solver has reached its accuracy" : message) + ")";
+}
+
+std::string not_closed(const std::string &message)
+{
+   return "the gap between the bounds is wider than the tolerance" + because(message);
+}
+
 Eigen::VectorXd typical_forces(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p)
 {
    const Eigen::Index n = p.rows();

@@ -348,10 +348,9 @@ LimitReport LoadLimit::find()
    if (!std::isfinite(report_.lower))
    {
       report_.lower = 0;
-      return finish(LimitStatus::failed, "no admissible slip was found. " + message);
+      return finish(LimitStatus::failed, "no admissible slip was found" + because(message));
    }
-   return finish(LimitStatus::bracketed,
-                 "the gap between the bounds is not closed. " + message);
+   return finish(LimitStatus::bracketed, not_closed(message));
 }
 
 } // namespace

@@ -144,9 +144,11 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
 
     so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
     is first made to satisfy both conditions to round-off, by the smallest changes in the norm
-    of the cones' barrier; what then remains of the first is multiplied by @a slip_size, a bound
-    of the slips, and added, as is the round-off of the works. Infinite if W1 ≥ 0 or if the
-    mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
+    of the cones' barrier. If it is too near to the surface of its cones for that, it is moved
+    inside by a small share of its limits before. The rest of the first condition is multiplied
+    by @a slip_size, a bound of the slips, and added, as is the round-off of the works. Infinite
+   if W1 ≥ 0 or if the mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1.
+ */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
                           ConeMechanism &mechanism, double slip_size);
 

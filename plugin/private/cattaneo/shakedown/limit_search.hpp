@@ -29,6 +29,13 @@ protected:
    LimitReport report_;
 };
 
+/// Continues a sentence by what the solver of the last programme said, in brackets, or by that
+/// it ended as it should.
+std::string because(const std::string &message);
+
+/// The sentence on proven bounds that lie further apart than asked for.
+std::string not_closed(const std::string &message);
+
 /// How far the constant loads of a programme stay from its cones: the largest θ with
 /// f p + s0 - |q + a p| ≥ θ weight at every node and column.
 ConeProgramme clearance_programme(ConeProgramme programme, const Eigen::MatrixXd &weight);
