@@ -61,19 +61,27 @@ class Contact:
 
     def tangents(self, friction, sides, around):
         """The cuts of all discs; with two components those of polygons around or inside them."""
-        rows, constants = [], []
-        if self.c == 1:
-            angles = [0.0, np.pi]
+        n, c = self.n, self.c
+        if c == 1:
+            directions = np.array([[1.0], [-1.0]])
         else:
             angles = np.linspace(0, 2 * np.pi, sides, endpoint=False)
+            directions = np.column_stack((np.cos(angles), np.sin(angles)))
             friction = friction if around else friction * np.cos(np.pi / sides)
+
+        # Rows of f p - direction·q >= 0, as cut() has them, of all nodes and directions at once.
+        def bounds(p, q):
+            node = (n,) + (1,) * (p.ndim - 1)
+            along = np.tensordot(directions, q.reshape((c, n) + p.shape[1:]), 1)
+            return np.swapaxes((friction.reshape(node) * p - along) / self.force.reshape(node), 0, 1)
+
+        by_slip = self.length * bounds(self.B, self.A)
+        rows, constants = [], []
         for vertex in self.loads:
-            for i in range(self.n):
-                for angle in angles:
-                    row, constant = self.cut(i, vertex, np.array([np.cos(angle), np.sin(angle)][: self.c]), friction[i])
-                    rows.append(row)
-                    constants.append(constant)
-        return np.array(rows), np.array(constants)
+            by_load = self.unit * bounds(vertex["p1"], vertex["q1"])
+            rows.append(np.concatenate((by_load[..., None], by_slip), axis=-1).reshape(-1, 1 + self.m))
+            constants.append(bounds(vertex["p0"], vertex["q0"]).ravel())
+        return np.concatenate(rows), np.concatenate(constants)
 
 
 def programme(cost, rows, low, upper=None, rigid=()):
@@ -83,16 +91,22 @@ def programme(cost, rows, low, upper=None, rigid=()):
     highs.setOptionValue("output_flag", False)
     highs.setOptionValue("primal_feasibility_tolerance", 1e-10)
     highs.setOptionValue("dual_feasibility_tolerance", 1e-10)
-    columns = np.arange(rows.shape[1], dtype=np.int32)
-    for k in columns:
-        fixed = k in rigid
-        highs.addVar(0.0 if fixed else -infinity, 0.0 if fixed else infinity)
-        highs.changeColCost(int(k), -float(cost[k]))
+    width = rows.shape[1]
+    fixed = np.isin(np.arange(width), list(rigid))
+    model = highspy.HighsLp()
+    model.num_col_, model.num_row_ = width, len(rows)
+    model.col_cost_ = -np.asarray(cost, dtype=float)
+    low_x, high_x = np.where(fixed, 0.0, -infinity), np.where(fixed, 0.0, infinity)
     if upper is not None:
-        highs.changeColBounds(0, -infinity, upper)
-    for row, bound in zip(rows, low):
-        used = columns[row != 0]
-        highs.addRow(float(bound), infinity, len(used), used, row[row != 0])
+        high_x[0] = upper
+    model.col_lower_, model.col_upper_ = low_x, high_x
+    model.row_lower_, model.row_upper_ = np.asarray(low, dtype=float), np.full(len(rows), infinity)
+    where, column = np.nonzero(rows)
+    model.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+    model.a_matrix_.start_ = np.searchsorted(where, np.arange(len(rows) + 1))
+    model.a_matrix_.index_ = column
+    model.a_matrix_.value_ = rows[where, column]
+    highs.passModel(model)
     highs.run()
     if highs.getModelStatus() == Status.kUnboundedOrInfeasible:
         highs.setOptionValue("presolve", "off")
