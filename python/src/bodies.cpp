@@ -629,6 +629,17 @@ void bind_condensed(nb::module_ &m)
       .def_prop_ro(
          "held", [](const Self &self) { return array_of_indices(self.held); },
          "rows of S that supports hold")
+      .def_prop_ro(
+         "moved", viewed(&Self::moved),
+         "(2 n, loads): displacements {x; y} of contact nodes that loads move, per unit "
+         "multiplier; empty if none is")
+      .def_ro("thickness", &Self::thickness, "what forces are of, 1 unless thicken() is called")
+      .def(
+         "thicken", &Self::thicken, arg("times"),
+         "The plane body becomes so many times as thick: S, H and the forces of its loads, "
+         "which were per thickness, are multiplied. Pressures are over the area of the thinner "
+         "one of two bodies.\n"
+         "times: > 0, of a plane body.")
       .def_ro("rigid_modes", &Self::rigid_modes, "rigid motions that are free")
       .def_ro("counters", &Self::counters)
       .def(

@@ -75,7 +75,7 @@ void bind_half_planes(nb::module_ &m)
          "__init__",
          [](HalfPlane *self, const Material &material, double depth, Numbers point,
             Numbers normal, std::optional<bool> symmetric, const NamedNumbers &forces,
-            const NamedLoads &bulk)
+            const NamedLoads &bulk, double thickness)
          {
             HalfPlane body{material,
                            finite(depth, "depth"),
@@ -84,6 +84,7 @@ void bind_half_planes(nb::module_ &m)
                            {},
                            {}};
             if (symmetric) { body.symmetric = *symmetric; }
+            body.thickness = finite(thickness, "thickness");
             for (const auto &[name, stress] : bulk)
             {
                body.bulk.push_back({name, finite(stress, ("bulk['" + name + "']").c_str())});
@@ -96,7 +97,7 @@ void bind_half_planes(nb::module_ &m)
          },
          arg("material"), arg("depth") = 0.0, arg("point") = nb::make_tuple(0.0, 0.0),
          arg("normal") = nb::make_tuple(0.0, -1.0), arg("symmetric") = nb::none(),
-         arg("forces") = nb::dict(), arg("bulk") = nb::dict(),
+         arg("forces") = nb::dict(), arg("bulk") = nb::dict(), arg("thickness") = 1.0,
          "material: its elastic constants.\n"
          "depth: of the plane, > 0: displacements are relative to the point at this depth "
          "below "
@@ -108,9 +109,11 @@ void bind_half_planes(nb::module_ &m)
          "forces: by name, (x, y), from far away; without any it is held.\n"
          "bulk: by name, uniform stresses along the surface, tension positive; about an axis "
          "the same in all directions. The point stays where it is. A name may have a force as "
-         "well.")
+         "well.\n"
+         "thickness: of the plane: forces and stiffness are those of this thickness.")
       .def_ro("material", &HalfPlane::material)
       .def_ro("depth", &HalfPlane::depth)
+      .def_ro("thickness", &HalfPlane::thickness)
       .def("__repr__",
            [](const HalfPlane &self)
            {

@@ -294,6 +294,22 @@ def test_bodies_on_a_half_plane():
             call()
 
 
+def test_bodies_have_a_thickness():
+    """Five times as thick, five times the forces, and the same pressures."""
+    bodies, lines = column(1.0)
+    thin, thick = cattaneo.condense(bodies[0], lines[0][0]), cattaneo.condense(bodies[0], lines[0][0])
+    thick.thicken(5)
+    assert thick.thickness == 5 and thick.S == pytest.approx(5 * thin.S)
+    ground, deep = (cattaneo.HalfPlane(cattaneo.Material(8.0, 0.3), depth=100.0, thickness=t) for t in (1, 5))
+    assert deep.thickness == 5
+    one, five = cattaneo.reduce(thin, ground).problem, cattaneo.reduce(thick, deep).problem
+    assert five.K == pytest.approx(5 * one.K, abs=1e-9 * abs(five.K).max())
+    assert five.weights == pytest.approx(5 * one.weights)
+    with pytest.raises(cattaneo.InputError, match="becomes -1 times as thick, must be a positive, finite number of times"):
+        thick.thicken(-1)
+    assert thin.moved.size == 0
+
+
 def test_what_a_body_cannot_be():
     K, places = strip().K, strip().places
     skewed, turned = K.tolil(), K.tolil()

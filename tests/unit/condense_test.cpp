@@ -217,10 +217,10 @@ TEST(Condensation, RefusesWhatNothingHolds)
    body.fix_node(2.0, 1.0, 1);
    EXPECT_EQ(condense(body, one).counters.factorisations, 1);
 
-   ElasticBody fixed(mesh, 1, Material{});
-   fixed.add_displacement("side", 4, 0, 1.0); // takes the corner node of the bottom with it
-   expect_input_error([&] { condense(fixed, contact_line(fixed, 1)); },
-                      "is displaced by load pattern 'side'");
+   ElasticBody guided(mesh, 1, Material{});
+   guided.guide(4, {}); // takes the corner node of the bottom with it
+   expect_input_error([&] { condense(guided, contact_line(guided, 1)); },
+                      "is in a guide, contact nodes must be free, held or moved by a load");
 
    ElasticBody other(mesh, 2, Material{});
    expect_input_error(

@@ -22,13 +22,19 @@ void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index 
 }
 
 /// The line meets its supports, and the rows in its frames that these hold.
-std::vector<int> align(ContactLine &line, const std::vector<int> &held)
+std::vector<int> align(ContactLine &line, const ContactDofs &contact)
 {
+   const std::vector<int> &held = contact.held;
    if (line.formulation == Formulation::torsion) { return held; }
    const auto n = static_cast<int>(line.size());
-   HeldComponents components = HeldComponents::Constant(n, 2, false);
-   for (int position : held) { components(position % n, position / n) = true; }
-   meet_supports(line, components);
+   HeldComponents components = HeldComponents::Constant(n, 2, false), moved = components;
+   for (int position : held)
+   {
+      components(position % n, position / n) = true;
+      moved(position % n, position / n) =
+         contact.moved.size() > 0 && !contact.moved.row(position).isZero(0);
+   }
+   meet_supports(line, components, moved);
    std::vector<int> rows;
    for (int position : held)
    {
@@ -117,18 +123,28 @@ ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int d
    return {contact, {}};
 }
 
-void require_unmoved(const ContactLine &line, const std::string &pattern,
-                     const std::vector<int> &moved)
+void ContactDofs::move(int position, Eigen::Index load, double by, const ContactLine &line,
+                       const std::vector<BodyLoad> &loads)
 {
-   if (moved.empty()) { return; }
-   const auto n = line.size();
-   const Eigen::Index a = *std::min_element(moved.begin(), moved.end()), i = a % n;
-   require(false, "condense: component ",
-           component_name(line.formulation, static_cast<int>(a / n)),
-           " of the contact node at ", line.nodes[i].position,
-           pattern.empty() ? std::string(" is in a guide")
-                           : " is displaced by load pattern '" + pattern + "'",
-           ", contact nodes must be free or fixed: the contact must end before it");
+   if (line.formulation == Formulation::torsion)
+   {
+      refuse_motion(line, position, "is turned by load pattern '" + loads[load].name + "'");
+   }
+   if (moved.size() == 0)
+   {
+      moved = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(all.size()),
+                                    static_cast<Eigen::Index>(loads.size()));
+   }
+   moved(position, load) = by;
+}
+
+void refuse_motion(const ContactLine &line, int position, const std::string &how)
+{
+   const auto n = static_cast<int>(line.size());
+   throw InputError(
+      std::string("condense: component ") + component_name(line.formulation, position / n) +
+      " of the contact node at " + as_text(line.nodes[position % n].position) + " " + how +
+      ", contact nodes must be free, held or moved by a load: the contact must end before it");
 }
 
 CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
@@ -138,7 +154,8 @@ CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoa
    result.line = line;
    if (!contact.held.empty())
    {
-      result.held = align(result.line, contact.held);
+      result.held = align(result.line, contact);
+      result.moved = contact.moved;
       const std::vector<int> free = contact.free_positions();
       const auto rows = static_cast<Eigen::Index>(contact.all.size());
       spread(found.S, free, rows);

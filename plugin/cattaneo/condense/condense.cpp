@@ -341,20 +341,21 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       {
          continue;
       }
-      contact.held.push_back(static_cast<int>(a));
-      for (const BodyLoad &load : body.loads)
+      const auto position = static_cast<int>(a);
+      contact.held.push_back(position);
+      for (std::size_t k = 0; k < body.loads.size(); ++k)
       {
-         if (load.control == Control::displacement && load.values[contact.all[a]] != 0)
+         const BodyLoad &load = body.loads[k];
+         const double by =
+            load.control == Control::displacement ? load.values[contact.all[a]] : 0.0;
+         if (by != 0)
          {
-            require_unmoved(line, load.name, {static_cast<int>(a)});
+            contact.move(position, static_cast<Eigen::Index>(k), by, line, body.loads);
          }
       }
       for (const BlockMotion &block : body.blocks)
       {
-         if (block.motion[contact.all[a]] != 0)
-         {
-            require_unmoved(line, "", {static_cast<int>(a)});
-         }
+         if (block.motion[contact.all[a]] != 0) { refuse_motion(line, position, in_guide); }
       }
    }
    return in_local_frames(

@@ -3,6 +3,7 @@
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cmath>
 
 namespace cattaneo
 {
@@ -58,9 +59,26 @@ double CondensedBody::error_estimate()
       motions.col(0).normalize();
    }
    const std::vector<int> free = free_positions();
-   Eigen::MatrixXd stiffness = back.both(S);
+   Eigen::MatrixXd stiffness = back.both(S / thickness);
    if (!held.empty()) { stiffness = stiffness(free, free).eval(); }
    return solver->error(stiffness, motions(free, Eigen::all), counters);
+}
+
+void CondensedBody::thicken(double times)
+{
+   require(times > 0 && std::isfinite(times) && line.formulation == Formulation::plane,
+           "condensed body: it becomes ", times, " times as thick, ",
+           line.formulation == Formulation::plane
+              ? "must be a positive, finite number of times"
+              : "about an axis forces are those of the whole circumference");
+   thickness *= times;
+   S *= times;
+   H *= times;
+   for (LoadPattern &pattern : patterns)
+   {
+      pattern.q *= times;
+      pattern.p *= times;
+   }
 }
 
 Eigen::MatrixXd CondensedBody::rigid_motions() const
@@ -84,6 +102,11 @@ Eigen::Matrix2d CondensedBody::directions(Eigen::Index node) const
    const auto holds = [&](Eigen::Index row)
    { return std::binary_search(held.begin(), held.end(), static_cast<int>(row)); };
    return cattaneo::directions(line.nodes[node], holds(node), holds(node + line.size()));
+}
+
+bool CondensedBody::moves(Eigen::Index node, int component) const
+{
+   return moved.size() > 0 && !moved.row(component * line.size() + node).isZero(0);
 }
 
 bool CondensedBody::holds(Eigen::Index node, int component) const

@@ -43,6 +43,11 @@ public:
    /// across the held direction. Then w is its opening along the normal of the line, and p the
    /// force along that normal, part of which the support carries. See directions().
    std::vector<int> held;
+   /// Of a plane body: forces are those of this thickness. See thicken().
+   double thickness = 1;
+   /// Displacements {x; y} of contact nodes per unit multiplier, 2n × patterns: of held
+   /// components that loads move. Empty where all that is held is at rest.
+   Eigen::MatrixXd moved;
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
    Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)
    int rigid_modes =
@@ -65,6 +70,11 @@ public:
        Collective. */
    double error_estimate();
 
+   /// A plane body becomes so many times as thick: S, H and the forces of patterns, which were
+   /// per thickness for instance, are multiplied. Pressures are forces over the area of the
+   /// thinner one of two bodies. InputError about an axis, or unless it is positive and finite.
+   void thicken(double times);
+
    /// The rigid motions of the contact nodes in local frames: plane 2n × 3 (x, y, rotation
    /// about the origin), axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
    Eigen::MatrixXd rigid_motions() const;
@@ -74,6 +84,8 @@ public:
    Eigen::Matrix2d directions(Eigen::Index node) const;
    /// Do supports hold the component, 0: x or r, 1: y or z, of a node? Not of torsion.
    bool holds(Eigen::Index node, int component) const;
+   /// Does a load move the component, 0: x or r, 1: y or z, of a node?
+   bool moves(Eigen::Index node, int component) const;
 
    std::shared_ptr<const BodySolver> solver; ///< shared by copies, of the free components
 

@@ -78,7 +78,7 @@ std::optional<double> curves_into_symmetry(const LineChain &chain, bool last, in
 
 } // namespace
 
-void meet_supports(ContactLine &line, const HeldComponents &held)
+void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComponents &moved)
 {
    for (Index i = 0; i < line.size(); ++i)
    {
@@ -89,7 +89,8 @@ void meet_supports(ContactLine &line, const HeldComponents &held)
       const double off = off_axis(node.tangent, axis), degrees = in_degrees * off;
       bool onto_axis = off <= 1e-9; // round-off of the coordinates
       // About an axis nothing has a mirror image in a cylinder, which a held r is.
-      const bool mirrors = axis == c && (line.formulation == Formulation::plane || c == 1);
+      const bool mirrors =
+         axis == c && !moved(i, c) && (line.formulation == Formulation::plane || c == 1);
       for (LineChain &chain : line.chains)
       {
          for (const bool last : {false, true})
@@ -121,16 +122,17 @@ void meet_supports(ContactLine &line, const CondensedBody &body)
    if (line.formulation == Formulation::torsion || body.held.empty()) { return; }
    std::map<std::array<int, 2>, Index> number;
    for (Index k = 0; k < body.line.size(); ++k) { number[body.line.nodes[k].dofs] = k; }
-   HeldComponents held = HeldComponents::Constant(line.size(), 2, false);
+   HeldComponents held = HeldComponents::Constant(line.size(), 2, false), moved = held;
    for (Index i = 0; i < line.size(); ++i)
    {
       const auto found = number.find(line.nodes[i].dofs);
       for (int c = 0; c < 2 && found != number.end(); ++c)
       {
          held(i, c) = body.holds(found->second, c);
+         moved(i, c) = body.moves(found->second, c);
       }
    }
-   meet_supports(line, held);
+   meet_supports(line, held, moved);
 }
 
 } // namespace cattaneo

@@ -223,8 +223,8 @@ void require_not_eliminated(const ElasticBody &body)
 
 #endif
 
-/// contact_dofs() of an MFEM body, global numbers, and which are held. InputError, on all
-/// ranks, if one is displaced by a load pattern.
+/// contact_dofs() of an MFEM body, global numbers, which are held, and what loads move.
+/// InputError, on all ranks, if one is in a guide.
 ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
 {
    ContactDofs contact = contact_dofs(line, body.formulation(), body.dofs());
@@ -247,17 +247,32 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
       return positions;
    };
    contact.held = known_by_owner([](int) { return true; });
-   for (const BodyLoad &load : body.patterns())
+   const std::vector<BodyLoad> &loads = body.patterns();
+   for (std::size_t k = 0; k < loads.size(); ++k)
    {
-      if (load.control == Control::force) { continue; }
-      require_felt(body, load);
-      require_unmoved(line, load.name,
-                      known_by_owner([&](int dof) { return load.values[dof] != 0; }));
+      if (loads[k].control == Control::force) { continue; }
+      require_felt(body, loads[k]);
+      const auto by = [&](int dof) { return loads[k].values[dof]; };
+      const std::vector<int> moved = known_by_owner([&](int dof) { return by(dof) != 0; });
+      Eigen::MatrixXd all(moved.size(), 1);
+      for (std::size_t a = 0; a < moved.size(); ++a)
+      {
+         const int dof = contact.all[moved[a]] - body.first_global_dof();
+         const bool here = std::binary_search(essential.begin(), essential.end(), dof);
+         all(static_cast<Eigen::Index>(a)) = here ? by(dof) : 0.0;
+      }
+      body.ranks().sum(all);
+      for (std::size_t a = 0; a < moved.size(); ++a)
+      {
+         contact.move(moved[a], static_cast<Eigen::Index>(k), all(static_cast<Eigen::Index>(a)),
+                      line, loads);
+      }
    }
    for (const BlockMotion &block : body.blocks())
    {
-      require_unmoved(line, "",
-                      known_by_owner([&](int dof) { return block.motion[dof] != 0; }));
+      const std::vector<int> moved =
+         known_by_owner([&](int dof) { return block.motion[dof] != 0; });
+      if (!moved.empty()) { refuse_motion(line, moved[0], in_guide); }
    }
    return contact;
 }

@@ -408,6 +408,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    }
    result.S = MatrixXd::Zero(rows, rows);
    const auto own = static_cast<Index>(free.size());
+   result.thickness = body.thickness;
    result.S(free, free) = body.thickness * S.topLeftCorner(own, own);
    if (torsion)
    {

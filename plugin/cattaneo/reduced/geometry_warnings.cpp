@@ -126,6 +126,23 @@ void say_held(const Reduction &reduction, const InterfaceReport &face,
    }
 }
 
+/// Nodes that loads move along an interface, whose friction is left out.
+void say_moved(const Reduction &reduction, const InterfaceReport &face,
+               const std::vector<bool> &bears, std::vector<std::string> &said)
+{
+   for (const InterfaceReport::Moved &one : face.moved)
+   {
+      if (!bears[one.node]) { continue; }
+      said.push_back(sentence(
+         "interface '", face.name, "': load '", reduction.problem.patterns[one.pattern].name,
+         "' moves node ", one.node, " at ", at(reduction.problem.position.row(one.node)),
+         ", which bears, along the contact, and what it faces cannot follow: the law "
+         "of friction is left out at that node, and results have neither its friction "
+         "nor its slip. Both are there where the contact ends before the part that is "
+         "moved"));
+   }
+}
+
 /// Distance of a place from the straight line between two others.
 double distance_from(const Vector2d &place, const Vector2d &from, const Vector2d &to)
 {
@@ -357,6 +374,7 @@ std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eig
       if (face.tied) { continue; }
       say_normals(problem, face, bears, said);
       say_held(reduction, face, bears, said);
+      say_moved(reduction, face, bears, said);
       say_polygon(reduction, face, bears, said);
       say_short_edges(reduction, face, p, said);
    }

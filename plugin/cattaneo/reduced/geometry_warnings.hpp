@@ -27,6 +27,8 @@ constexpr double uneven_edges = 0.2;
     - nodes that bear with friction and that supports hold along an axis on which their frames
       lean: how much of the tangential force is the support's is not determined, and friction
       there is taken for none;
+    - nodes that bear and that a load moves along the interface (InterfaceReport::moved): their
+      friction is left out;
     - a node at an edge of less than uneven_edges of the length of the edge beside it, where it
       bears more than 1.25 times the largest pressure at all other nodes of its interface;
     - straight edges that stay a polygon where the other side is a smooth curve that their

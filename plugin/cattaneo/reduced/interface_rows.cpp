@@ -4,7 +4,9 @@
 #include <cattaneo/reduced/curve_gaps.hpp>
 #include <cattaneo/reduced/interface_rows.hpp>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace cattaneo
@@ -554,15 +556,27 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
               "reduce: the bodies must be all plane or all axisymmetric (those of torsion are "
               "added to a reduction of these)");
    }
-   std::vector<ContactRow> rows;
+   // A node that several interfaces share is that of the first one. Ties come before all others:
+   // where a tie and a contact meet nothing opens.
+   std::vector<std::size_t> order(interfaces.size());
+   std::iota(order.begin(), order.end(), 0);
+   std::stable_partition(order.begin(), order.end(),
+                         [&](std::size_t k) { return interfaces[k].tied; });
+   std::vector<std::vector<ContactRow>> rows_of_each(interfaces.size());
+   met.resize(interfaces.size());
    Slaves taken;
    std::set<int> touched;
-   for (const Interface &interface : interfaces)
+   for (const std::size_t k : order)
    {
-      RowsOfInterface made(interface, bodies);
-      made.add_to(rows, taken);
-      met.push_back(std::move(made.met));
-      touched.insert({interface.first.body, interface.second.body});
+      RowsOfInterface made(interfaces[k], bodies);
+      made.add_to(rows_of_each[k], taken);
+      met[k] = std::move(made.met);
+      touched.insert({interfaces[k].first.body, interfaces[k].second.body});
+   }
+   std::vector<ContactRow> rows;
+   for (std::vector<ContactRow> &its : rows_of_each)
+   {
+      std::move(its.begin(), its.end(), std::back_inserter(rows));
    }
    for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
    {

@@ -153,6 +153,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    Block block = united(result.bodies, *rows, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
    result.rows_ = std::move(rows);
+   const std::vector<InterfaceReport::Moved> moved = block.moved;
    take(std::move(block), problem);
    problem.weights = problem.arc_length = Eigen::VectorXd::Zero(n);
    problem.position.resize(n, 2);
@@ -163,7 +164,22 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
       InterfaceReport report = report_of(interface);
       report.first = next[report.tied];
       next[report.tied] += report.nodes;
-      if (!report.tied) { add_facts(problem, report.first, report.matching, interface, met); }
+      if (!report.tied)
+      {
+         add_facts(problem, report.first, report.matching, interface, met);
+         double thickness = result.bodies[report.bodies[0]].thickness;
+         if (report.bodies[1] >= 0)
+         {
+            thickness = std::min(thickness, result.bodies[report.bodies[1]].thickness);
+         }
+         problem.weights.segment(report.first, report.nodes) *= thickness;
+      }
+      for (const InterfaceReport::Moved &one : moved)
+      {
+         const bool its =
+            !report.tied && one.node >= report.first && one.node < report.first + report.nodes;
+         if (its) { report.moved.push_back(one); }
+      }
       result.interfaces.push_back(std::move(report));
    }
    return result;
@@ -223,6 +239,12 @@ SeparateBodies separate(const std::vector<CondensedBody> &bodies,
    {
       require(!interface.tied, "interface '", interface.name,
               "': it is tied, its bodies have no displacements of their own there");
+   }
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      require(bodies[b].moved.size() == 0, "separate: a load moves contact nodes of ",
+              called(bodies, static_cast<int>(b)),
+              ", which only bodies that are united know: the contact must end before them");
    }
    std::vector<MetInterface> met;
    const RelativeDisplacement map(bodies, rows_of(interfaces, bodies, met));

@@ -50,6 +50,15 @@ struct InterfaceReport
    /// equal on the other (differing_element()); none: there is no such place. Tractions are not
    /// right there.
    std::optional<Eigen::Vector2d> differing = {};
+   /// A node of the problem that a load moves along the interface, by a component that is held,
+   /// while what it faces is at rest or moved otherwise. Its slip is that of the load: its v is
+   /// held at 0 in the problem, and its law of friction is left out.
+   struct Moved
+   {
+      Eigen::Index node = 0; ///< of the problem
+      int pattern = 0;       ///< among those of the problem
+   };
+   std::vector<Moved> moved = {}; ///< see Moved
 };
 
 /// A rigid obstacle moves (or deforms) by (ux, uy) per unit multiplier, functions of the

@@ -12,6 +12,7 @@ namespace cattaneo
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 namespace
@@ -135,6 +136,8 @@ public:
    double springs = 0;
    std::vector<int> free;     ///< rows {v; w} of all contact nodes of those that are not tied
    MatrixXd of_tied, on_tied; ///< forces on the tied ones, by displacements and by loads
+   /// What loads move contact nodes by, as {v; w} of the rows that slide; empty: none does.
+   MatrixXd moved;
 
    explicit BodiesUnion(RelativeDisplacement relative) : map(std::move(relative)) {}
 
@@ -150,6 +153,8 @@ public:
             coordinates[place] = relative[static_cast<Index>(i)];
          }
       }
+      // The free components make up what those that are moved do not.
+      if (moved.size() > 0) { coordinates.head(m) -= moved * multipliers.head(moved.cols()); }
       if (rest > 0)
       {
          // Motions of an obstacle, which come later, do not load the bodies.
@@ -229,6 +234,35 @@ std::vector<int> at(const std::vector<int> &numbers, const std::vector<int> &of)
    std::vector<int> found;
    for (int k : of) { found.push_back(numbers[k]); }
    return found;
+}
+
+/// Relative displacements {v; w} that contact nodes have where loads move held components of
+/// them, a column a pattern; empty: no load does.
+MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
+                        const Reduction::PatternIndex &index, Index count)
+{
+   MatrixXd moved;
+   const auto n = static_cast<Index>(rows.rows.size());
+   for (Index i = 0; i < n; ++i)
+   {
+      const ContactRow &row = rows.rows[i];
+      const Vector2d &t = row.tangent, normal(-t[1], t[0]);
+      for (const TraceShare &share : row.shares)
+      {
+         const CondensedBody &body = bodies[share.of.first];
+         const Index x = share.of.second, y = x + body.line.size();
+         for (Index k = 0; k < body.moved.cols(); ++k)
+         {
+            const Vector2d by(share.x * body.moved(x, k), share.y * body.moved(y, k));
+            if (by.isZero(0)) { continue; }
+            if (moved.size() == 0) { moved = MatrixXd::Zero(2 * n, count); }
+            const int pattern = index[share.of.first][k];
+            moved(i, pattern) += t.dot(by);
+            moved(n + i, pattern) += normal.dot(by);
+         }
+      }
+   }
+   return moved;
 }
 
 /// A body's response to its own loads.
@@ -374,6 +408,23 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       add_product(f, Q, work - transposed_product(Q, f));
    }
 
+   // Where loads move contact nodes by g the free components take u - λ g: forces grow by -S g,
+   // and what a load does work on by -g, if it is one of these.
+   const MatrixXd moved = moved_contacts(bodies, rows, index, count);
+   if (moved.size() > 0)
+   {
+      const MatrixXd g = shared->moved = rows_of(moved, map.sliding);
+      const MatrixXd Sg = S * g, work = transposed_product(g, f);
+      for (Index k = 0; k < count; ++k)
+      {
+         const bool force = patterns[k].control == Control::force;
+         block.H.row(k) += (force ? 1.0 : -1.0) * work.col(k).transpose();
+         if (!force) { block.H.row(k) -= work.row(k); }
+      }
+      block.H += transposed_product(g, Sg);
+      f -= Sg;
+   }
+
    // Rows that do not slide are held, and those of tied nodes are left out.
    const auto all = static_cast<Index>(rows.rows.size());
    shared->free = components_of(rows.free, all, map.components);
@@ -381,7 +432,17 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
                           tied = at(map.place, components_of(rows.tied, all, map.components));
    for (std::size_t k = 0; k < free.size(); ++k)
    {
-      if (free[k] < 0) { block.held.push_back(static_cast<int>(k)); }
+      if (free[k] >= 0) { continue; }
+      block.held.push_back(static_cast<int>(k));
+      for (Index load = 0; load < moved.cols(); ++load)
+      {
+         const double by = std::abs(moved(shared->free[k], load));
+         // More than the round-off of two sides that are moved together.
+         if (by > 1e-12 * moved.col(load).cwiseAbs().maxCoeff())
+         {
+            block.moved.push_back({static_cast<Index>(k), static_cast<int>(load)});
+         }
+      }
    }
    block.motions = rows_of(tied.empty() ? Q : at_rest(Q, rows_of(Q, tied)), free);
    block.f = rows_of(f, free);

@@ -39,7 +39,12 @@ struct ContactDofs
 {
    std::vector<int> all;
    std::vector<int> held; ///< positions in `all`, increasing
+   /// What loads move them by, `all` × loads; empty where all that is held is at rest.
+   Eigen::MatrixXd moved = {};
 
+   /// One of them is moved. InputError that names the node for a body of torsion.
+   void move(int position, Eigen::Index load, double by, const ContactLine &line,
+             const std::vector<BodyLoad> &loads);
    std::vector<int> free() const;
    std::vector<int> free_positions() const;
 };
@@ -48,10 +53,11 @@ struct ContactDofs
 /// (ContactLine::validate), is of another formulation, or its dofs are not from 0 to dofs - 1.
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
 
-/// InputError that names the node and the pattern (without a name: a guide) if a load displaces
-/// a contact dof: `moved` are positions of those.
-void require_unmoved(const ContactLine &line, const std::string &pattern,
-                     const std::vector<int> &moved);
+/// InputError that names the node at a position of the contact dofs: it moves as `how` says,
+/// and may not.
+[[noreturn]] void refuse_motion(const ContactLine &line, int position, const std::string &how);
+/// See refuse_motion(), of a node that a rigid block takes with it.
+constexpr const char *in_guide = "is in a guide";
 
 /// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
 /// Only names and controls of `loads` are used. InputError as of meet_supports().

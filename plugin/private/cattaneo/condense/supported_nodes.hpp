@@ -21,12 +21,13 @@ using HeldComponents = Eigen::Array<bool, Eigen::Dynamic, 2>;
     degrees, to a quarter of what that curve turns between the end and the middle of the first
     chord. There the frame is turned onto the axes, as the mean with that of the mirror image
     is. LineChain::off_symmetry says by how much that curve, or a line that is straight, is off.
-    About an axis a node that is held in r is on no plane of symmetry.
+    About an axis a node that is held in r is on no plane of symmetry, and nowhere is a node
+   that a load moves (`moved`, of what is held).
 
     InputError if one component of a node is held and the line meets it at neither 0 nor 90
     degrees, to LineChain::smooth_turn, unless it curves into a plane of symmetry there (the
     first chord of a circle of 8 edges leans by 22.5 degrees). */
-void meet_supports(ContactLine &line, const HeldComponents &held);
+void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComponents &moved);
 
 /// The same of a line whose nodes are some of those that the body was condensed to.
 void meet_supports(ContactLine &line, const CondensedBody &body);

@@ -22,6 +22,7 @@ struct Block
    Eigen::MatrixXd S, f, H;
    Eigen::MatrixXd motions;                          ///< that nothing resists, orthonormal
    std::vector<int> held;                            ///< rows that no body moves
+   std::vector<InterfaceReport::Moved> moved;        ///< see there
    std::shared_ptr<const Reduction::Union> way_back; ///< to the bodies' displacements
 };
 
