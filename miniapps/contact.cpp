@@ -61,7 +61,7 @@ struct CaseOptions
    int order = 2;
    double thickness = none;
    std::string paraview, analysis = "plane strain", geometry = "smooth", bodies, interfaces,
-                         bolts, points;
+                         bolts, points, units;
    std::vector<double> edges;
 
    explicit CaseOptions(Study &study)
@@ -84,6 +84,10 @@ struct CaseOptions
                    Text::structure);
       study.option(&points, "points",
                    "Where displacements and stresses are asked for, by names, as JSON.",
+                   Text::structure);
+      study.option(&units, "units",
+                   "Names of the units of length and force, as JSON; they are printed, and "
+                   "nothing is converted.",
                    Text::structure);
       study.options().add_set();
       study.option(&order, "order", "Order of the elements.", within(1, 8));
@@ -110,7 +114,8 @@ struct CaseOptions
    {
       return joint_case({analysis, structure("bodies", bodies),
                          structure("interfaces", interfaces), structure("bolts", bolts),
-                         structure("points", points), geometry, thickness},
+                         structure("points", points), structure("units", units), geometry,
+                         thickness},
                         order);
    }
 };
@@ -123,6 +128,15 @@ void contact(Study &study)
    options.check_edges();
    const JointCase joint = options.joint();
    history.check_options();
+   if (!joint.unit_of_length.empty())
+   {
+      study.units = {joint.unit_of_length, joint.unit_of_force,
+                     joint.formulation == Formulation::plane && std::isnan(options.thickness)};
+      study.results["units"] = {{"length", joint.unit_of_length},
+                                {"force", joint.unit_of_force}};
+      study.say("   units are" + study.units.of(0, 1) + " and" + study.units.of(1, 0) +
+                ", forces in" + study.units.total(0));
+   }
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());
 
@@ -147,14 +161,15 @@ void contact(Study &study)
            "option edges needs friction: without it nothing is stuck");
    history.about_axis = joint.formulation != Formulation::plane;
    history.bolts = own.bolted ? &*own.bolted : nullptr;
+   history.go_with = joint.go_with;
    history.begin(problem);
    history.check_times("edges", options.edges);
    if (!std::isnan(options.thickness))
    {
       study.results["thickness"] = options.thickness;
-      study.say(text("   thickness %g: forces, moments and energies are those of the whole "
+      study.say(text("   thickness %g%s: forces, moments and energies are those of the whole "
                      "thickness",
-                     options.thickness));
+                     options.thickness, study.units.of(0, 1).c_str()));
    }
    study.condensed(own.scene);
    study.value("condensation_error_estimate", own.accuracy);

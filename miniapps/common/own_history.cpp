@@ -9,6 +9,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <optional>
 
 namespace miniapp
 {
@@ -64,6 +65,63 @@ Eigen::Vector2d place_on(const ReducedProblem &problem, const ContactChain &chai
    Eigen::Index i = 0;
    while (i + 1 < last && arc[i + 1] < at) { ++i; }
    return place(i) + (at - arc[i]) / (arc[i + 1] - arc[i]) * (place(i + 1) - place(i));
+}
+
+/// The circle that a run of nodes lies on, if it is one that turns enough to be told from a
+/// straight line.
+struct Circle
+{
+   Eigen::Vector2d centre{0, 0};
+   double way = 1; ///< 1: the run goes round it counterclockwise, -1: clockwise
+
+   /// Of a place on it, from the x axis counterclockwise, in degrees; NaN: not known.
+   double angle(const Eigen::Vector2d &place) const
+   {
+      return std::atan2(place[1] - centre[1], place[0] - centre[0]) * 180 / std::acos(-1.0);
+   }
+   /// Of a second place, which is passed after one at the angle `from`.
+   double angle_after(double from, const Eigen::Vector2d &place) const
+   {
+      const double turn = std::fmod(way * (angle(place) - from) + 720, 360);
+      // The whole circle is passed, and not nothing of it.
+      return from + way * (turn > 1e-9 ? turn : 360);
+   }
+};
+
+std::optional<Circle> circle_of(const ReducedProblem &problem, const ContactChain &chain)
+{
+   const Eigen::Index n = chain.nodes;
+   if (n < 4 || problem.position.rows() != problem.nodes() || problem.position.cols() < 2)
+   {
+      return std::nullopt;
+   }
+   // |x|² = 2 c·x + const, by least squares about the middle.
+   const Eigen::MatrixX2d places = problem.position.block(chain.first, 0, n, 2);
+   const Eigen::RowVector2d middle = places.colwise().mean();
+   const Eigen::MatrixX2d x = places.rowwise() - middle;
+   const double size = x.cwiseAbs().maxCoeff();
+   Eigen::MatrixX3d M(n, 3);
+   M << 2 * x / size, VectorXd::Ones(n);
+   const Eigen::Vector3d found =
+      M.colPivHouseholderQr().solve((x / size).rowwise().squaredNorm());
+   const Eigen::RowVector2d centre = size * found.head(2).transpose();
+   const VectorXd radii = (x.rowwise() - centre).rowwise().norm();
+   const double radius = radii.mean();
+   double turned = 0;
+   for (Eigen::Index i = 1; i < n; ++i)
+   {
+      const Eigen::RowVector2d a = x.row(i - 1) - centre, b = x.row(i) - centre;
+      turned += std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+   }
+   // A run that turns by 10 degrees or more, and is off its circle by no more than a thousandth
+   // of what it is off a straight line by.
+   const double off = radius * (1 - std::cos(std::min(std::abs(turned), 3.0) / 2));
+   if (!std::isfinite(radius) || std::abs(turned) < std::acos(-1.0) / 18 ||
+       (radii.array() - radius).abs().maxCoeff() > 1e-3 * off)
+   {
+      return std::nullopt;
+   }
+   return Circle{(middle + centre).transpose(), turned > 0 ? 1.0 : -1.0};
 }
 
 void check_energies(std::initializer_list<double> energies)
@@ -193,6 +251,13 @@ void OwnHistory::check_options()
 void OwnHistory::begin(const ReducedProblem &problem)
 {
    history_ = load_history("history", text_, problem);
+   for (const auto &[load, with] : go_with)
+   {
+      auto its = history_.multipliers.row(problem.pattern(load));
+      require(text_.find(load) == std::string::npos, "history names '", load,
+              "', which goes with '", with, "': it must be left out");
+      its = history_.multipliers.row(problem.pattern(with));
+   }
    history_.cycle_start = cycle_start_;
    history_.cycles = cycles_;
    history_.validate(problem);
@@ -315,7 +380,8 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       const bool one = names.size() == 1;
       Panel &diagram =
          study_.panel(Panel::Kind::zones, one ? "zones_in_time" : "zones_in_time_" + name,
-                      one ? "Zones in time" : "Zones in time of " + name, "time", "arc length");
+                      one ? "Zones in time" : "Zones in time of " + name, "time",
+                      "arc length" + study_.units.of(0, 1));
       diagrams[name] = &diagram;
       if (!goes_on || study_.csv().empty()) { continue; }
       zones_in_time.read(name, study_.csv() + "_" + diagram.name() + ".csv", state.time);
@@ -397,16 +463,24 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
       text("At time %g%s: ", state.time, report.not_unique ? ", one of several states" : "") +
       more);
    if (problem.nodes() == 0) { return; } // nothing can open or slip
-   study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(), "peak pressure");
+   study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(),
+                "peak pressure" + study_.units.of(1, -2));
    const std::vector<Zone> zones = about_axis
                                       ? zones_to_axis(problem, cattaneo::zones(problem, state))
                                       : cattaneo::zones(problem, state);
    const bool one_line = zones.back().chain == 0;
    const std::vector<std::string> names = interfaces(problem);
+   std::vector<std::optional<Circle>> circles;
+   for (const ContactChain &chain : problem.chains)
+   {
+      circles.push_back(circle_of(problem, chain));
+   }
+   const bool round = std::any_of(circles.begin(), circles.end(),
+                                  [](const auto &circle) { return circle.has_value(); });
    ResultTable &table =
       study_.table("zones", {{"state", "state"},
-                             {"from", "from", "%.5g"},
-                             {"to", "to (arc length)", "%.5g"},
+                             {"from", "from" + study_.units.of(0, 1), "%.5g"},
+                             {"to", "to (arc length)" + study_.units.of(0, 1), "%.5g"},
                              {"", "± (estimate)"},
                              {"from_error_estimate"},
                              {"to_error_estimate"},
@@ -415,16 +489,23 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                              {"from_x"},
                              {"from_y"},
                              {"to_x"},
-                             {"to_y"}});
+                             {"to_y"},
+                             {"from_angle", round ? "from" : "", "%.3f"},
+                             {"to_angle", round ? "to (degrees)" : "", "%.3f"}});
    for (const Zone &zone : zones)
    {
       const ContactChain &chain = problem.chains[zone.chain];
       const Eigen::Vector2d from = place_on(problem, chain, zone.from.position),
                             to = place_on(problem, chain, zone.to.position);
+      std::array<double, 2> angles = {none, none};
+      if (const auto &circle = circles[zone.chain])
+      {
+         angles = {circle->angle(from), circle->angle_after(circle->angle(from), to)};
+      }
       study_.row(table, {name(zone.state), zone.from.position, zone.to.position,
                          error_text(std::max(zone.from.error, zone.to.error)), zone.from.error,
                          zone.to.error, zone.chain + 1, chain.interface, from[0], from[1],
-                         to[0], to[1]});
+                         to[0], to[1], angles[0], angles[1]});
    }
    const Eigen::Index touching = touching_nodes(problem, state);
    study_.results["touching_nodes"] = touching;
@@ -435,7 +516,8 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                       static_cast<long>(touching)));
    }
    Panel &drawn =
-      study_.lines("tractions", "Pressure, and shear over f (dashed)", "arc length", "p, q/f");
+      study_.lines("tractions", "Pressure, and shear over f (dashed)",
+                   "arc length" + study_.units.of(0, 1), "p, q/f" + study_.units.of(1, -2));
    for (const std::string &interface : names)
    {
       Eigen::Index first = problem.nodes(), end = 0;

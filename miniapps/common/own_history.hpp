@@ -5,6 +5,7 @@
 #include <cattaneo/joints/bolts.hpp>
 #include <cattaneo/output/history.hpp>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ public:
    bool about_axis = false;
    /// Bolts that the history tightens; must outlive it. Null: there are none.
    const cattaneo::BoltedJoint *bolts = nullptr;
+   /// Loads that have the multipliers of others: by their names those of the others.
+   std::map<std::string, std::string> go_with;
    cattaneo::MarchSettings settings;
    cattaneo::ContactState state;
    cattaneo::MarchReport report;

@@ -245,10 +245,11 @@ double external_work(const ReducedProblem &problem, const MarchReport &report,
 const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
                                  const MarchReport &report, double unit)
 {
-   std::vector<Column> columns = {{"cycle", "cycle"},
-                                  {"dissipation", "dissipation", "%.4e"},
-                                  {"external_work", "external work", "%.4e"},
-                                  {"slip_change", "slip change", "%.2e"}};
+   std::vector<Column> columns = {
+      {"cycle", "cycle"},
+      {"dissipation", "dissipation" + study.units.total(1), "%.4e"},
+      {"external_work", "external work" + study.units.total(1), "%.4e"},
+      {"slip_change", "slip change" + study.units.of(0, 1), "%.2e"}};
    const std::vector<ordered_json> before = study.rows_before("cycles");
    std::set<std::size_t> varied = varied_loads(report);
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)

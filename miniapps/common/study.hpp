@@ -8,6 +8,7 @@
 #include "common/scene.hpp"
 #include "common/table.hpp"
 #include "common/text.hpp"
+#include "common/units.hpp"
 
 #include <cattaneo/algebra/blas_kernels.hpp>
 #include <cattaneo/counters.hpp>
@@ -134,6 +135,7 @@ public:
 
    nlohmann::ordered_json results;
    cattaneo::Counters counters;
+   Units units;  ///< of what is printed
    int code = 0; ///< that the study ends with, unless it ends early
    Stopwatch watch;
 

@@ -1,5 +1,7 @@
 #include "common/text.hpp"
 
+#include "common/units.hpp"
+
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -61,6 +63,14 @@ std::string wrapped(const std::string &text, int indent)
       line += (line.empty() ? "" : " ") + word;
    }
    return result + margin + line + "\n";
+}
+
+std::string Units::of(int forces, int lengths) const
+{
+   if (length.empty() || force.empty()) { return ""; }
+   const std::string power = lengths == 2 || lengths == -2 ? length + "²" : length;
+   if (forces == 0) { return " [" + power + "]"; }
+   return " [" + force + (lengths > 0 ? " " + power : lengths < 0 ? "/" + power : "") + "]";
 }
 
 } // namespace miniapp

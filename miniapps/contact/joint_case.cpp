@@ -553,6 +553,80 @@ JointCase::Point point(const Key &key, const std::string &name, const JointCase 
    return made;
 }
 
+/// Calls visit(name, is of displacements) for every load that is named.
+template <class Visit>
+void each_load(JointCase &joint, Visit visit)
+{
+   const auto along = [&](Guide &guide)
+   {
+      for (Guide::Along *one : {&guide.x, &guide.y, &guide.rotation})
+      {
+         if (one->load.empty()) { continue; }
+         visit(one->load, one->motion == Guide::Motion::displacement);
+      }
+   };
+   for (JointCase::Body &one : joint.bodies)
+   {
+      std::vector<std::string> statements;
+      bool renamed = false;
+      for (const std::string &statement : split(one.load, ";\n"))
+      {
+         std::vector<std::string> words = split(statement, " \t");
+         if (words.size() > 1)
+         {
+            const bool moves = words[1].rfind("displacement-", 0) == 0 || words[1] == "twist";
+            const std::string before = words[0];
+            visit(words[0], moves);
+            renamed = renamed || words[0] != before;
+         }
+         statements.push_back(listed(words, " "));
+      }
+      if (renamed) { one.load = listed(statements, "; "); }
+      for (JointCase::Body::Guided &each : one.guides) { along(each.guide); }
+      for (BulkStress &each : one.bulk) { visit(each.pattern, false); }
+   }
+   for (JointCase::Face &one : joint.faces)
+   {
+      if (one.guide) { along(*one.guide); }
+      for (JointCase::Motion &each : one.motions) { visit(each.load, true); }
+   }
+   for (JointCase::Bolt &one : joint.bolts) { visit(one.name, false); }
+}
+
+/// A load that pushes one thing and moves another is two, of which the second goes with the
+/// first: a multiplier has one kind of conjugate.
+void part_loads(JointCase &joint)
+{
+   std::map<std::string, std::array<bool, 2>> kinds; // forces, displacements
+   each_load(joint, [&](std::string &name, bool moves) { kinds[name][moves ? 1 : 0] = true; });
+   const auto both = [&](const std::string &name)
+   {
+      const auto found = kinds.find(name);
+      return found != kinds.end() && found->second[0] && found->second[1];
+   };
+   const std::string moved = ".moved";
+   for (const auto &[name, its] : kinds)
+   {
+      if (!both(name)) { continue; }
+      require(kinds.count(name + moved) == 0, "load '", name,
+              "' has forces and displacements, "
+              "and there is a load '",
+              name, moved,
+              "', which is what the results call its displacements: it must have another name");
+      joint.go_with[name + moved] = name;
+   }
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      require(!both(bolt.name), bolt.source.called("preload"), ": its load '", bolt.name,
+              "' moves something as well, which must be a load of another name");
+   }
+   each_load(joint,
+             [&](std::string &name, bool moves)
+             {
+                if (moves && both(name)) { name += moved; }
+             });
+}
+
 /// The members of a key, an object.
 template <class Add>
 void each(const ordered_json &all, const std::string &name, Add add)
@@ -584,12 +658,6 @@ int JointCase::body(const std::string &name) const
       if (bodies[b].name == name) { return static_cast<int>(b); }
    }
    return -1;
-}
-
-double JointCase::thickness_of(const Face &face) const
-{
-   const double first = thickness_of(face.sides[0].body);
-   return face.sides[1].body < 0 ? first : std::min(first, thickness_of(face.sides[1].body));
 }
 
 ordered_json structure(const std::string &key, const std::string &text)
@@ -647,6 +715,23 @@ JointCase joint_case(const JointKeys &keys, int order)
    each(keys.points, "points",
         [&](const Key &key, const std::string &name)
         { joint.points.push_back(point(key, name, joint)); });
+   if (!keys.units.is_null())
+   {
+      const Key units(keys.units, "units");
+      units.must_be_of({"length", "force"});
+      joint.unit_of_length = units["length"].text();
+      joint.unit_of_force = units["force"].text();
+      for (const char *name : {"length", "force"})
+      {
+         const std::string word = units[name].text();
+         require(
+            !word.empty() && is_utf8(word) &&
+               std::none_of(word.begin(), word.end(), [](unsigned char c) { return c <= ' '; }),
+            units[name].called(), ": '", word, "' must be the name of a unit, as ",
+            name == std::string("length") ? "mm" : "N");
+      }
+   }
+   part_loads(joint);
    return joint;
 }
 

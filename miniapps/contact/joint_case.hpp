@@ -140,21 +140,24 @@ struct JointCase
    std::vector<Face> faces;
    std::vector<Bolt> bolts;
    std::vector<Point> points;
+   /// Units by their names, both or none.
+   std::string unit_of_length, unit_of_force;
+   /// Loads with forces and displacements: their displacements are a load of another name here,
+   /// which goes with the forces. By that name.
+   std::map<std::string, std::string> go_with;
 
    int body(const std::string &name) const; ///< its number, -1: none
    double thickness_of(int body) const
    {
       return std::isnan(bodies[body].thickness) ? thickness : bodies[body].thickness;
    }
-   /// Of what both bodies have: where they touch.
-   double thickness_of(const Face &face) const;
 };
 
 /// What the keys of a case hold; null: it is not there.
 struct JointKeys
 {
    std::string analysis;
-   nlohmann::ordered_json bodies, interfaces, bolts, points;
+   nlohmann::ordered_json bodies, interfaces, bolts, points, units;
    std::string geometry = {};
    double thickness = none; ///< not given: forces are per thickness
 };

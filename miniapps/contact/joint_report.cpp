@@ -183,7 +183,7 @@ std::string JointReport::of_state(const ContactState &state)
    const Vector2d force = resultant(face, state).force;
    study_.results["contact_force"] = {force[0], force[1]};
    return "contact force on " + body(face.bodies[face.of_second]) +
-          text(" (%g, %g)", force[0], force[1]);
+          text(" (%g, %g)", force[0], force[1]) + study_.units.total(0);
 }
 
 void JointReport::report(const ContactState &state, const MarchReport &march)
@@ -197,29 +197,30 @@ void JointReport::report(const ContactState &state, const MarchReport &march)
 void JointReport::report_interfaces(const ContactState &state, const MarchReport &march)
 {
    const bool plane = joint_.formulation == Formulation::plane;
+   const Units &u = study_.units;
    const bool faces_nothing =
       std::any_of(reduction_.interfaces.begin(), reduction_.interfaces.end(),
                   [](const InterfaceReport &face) { return !face.free_surface.empty(); });
-   ResultTable &table =
-      study_.table("interfaces", {{"interface", "interface"},
-                                  {"on", "forces on"},
-                                  {"normal", "N (pressing)", "%.6g"},
-                                  {"tangential", "T", "%.6g"},
-                                  {"force_x", plane ? "x" : "", "%.6g"},
-                                  {"force_y", plane ? "y" : "axial", "%.6g"},
-                                  {"moment", plane ? "moment" : "", "%.4g"},
-                                  {"moment_defect"},
-                                  {"torque", twists() ? "torque" : "", "%.6g"},
-                                  {"about_x", plane ? "about x" : "", "%.5g"},
-                                  {"about_y", plane ? "y" : "", "%.5g"},
-                                  {"dissipation", "lost a cycle", "%.4e"},
-                                  {"stick", "stick", "%.4g"},
-                                  {"slip", "slip", "%.4g"},
-                                  {"separation", "open (length)", "%.4g"},
-                                  {"tied"},
-                                  {"nodes"},
-                                  {"free_surface", faces_nothing ? "face nothing" : ""},
-                                  {"arm"}});
+   ResultTable &table = study_.table(
+      "interfaces", {{"interface", "interface"},
+                     {"on", "forces on"},
+                     {"normal", "N (pressing)" + u.total(0), "%.6g"},
+                     {"tangential", "T" + u.total(0), "%.6g"},
+                     {"force_x", headed(plane ? "x" : "", u.total(0)), "%.6g"},
+                     {"force_y", std::string(plane ? "y" : "axial") + u.total(0), "%.6g"},
+                     {"moment", headed(plane ? "moment" : "", u.total(1)), "%.4g"},
+                     {"moment_defect"},
+                     {"torque", headed(twists() ? "torque" : "", u.total(1)), "%.6g"},
+                     {"about_x", headed(plane ? "about x" : "", u.of(0, 1)), "%.5g"},
+                     {"about_y", headed(plane ? "y" : "", u.of(0, 1)), "%.5g"},
+                     {"dissipation", "lost a cycle" + u.total(1), "%.4e"},
+                     {"stick", "stick" + u.of(0, 1), "%.4g"},
+                     {"slip", "slip" + u.of(0, 1), "%.4g"},
+                     {"separation", "open (length)" + u.of(0, 1), "%.4g"},
+                     {"tied"},
+                     {"nodes"},
+                     {"free_surface", faces_nothing ? "face nothing" : ""},
+                     {"arm"}});
    std::vector<Zone> all_zones;
    if (reduction_.problem.nodes() > 0)
    {
@@ -255,15 +256,18 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
 
 void JointReport::report_cycles(const MarchReport &march)
 {
+   const Units &u = study_.units;
    ResultTable &table = study_.table(
-      "interface_cycles", {{"cycle", "cycle"},
-                           {"interface", "interface"},
-                           {"dissipation", "dissipation", "%.4e"},
-                           {"work", twists() ? "area of -torque" : "area of -T", "%.4e"},
-                           {"shear_range", twists() ? "range of torque" : "range of T", "%.4e"},
-                           {"slip_range", twists() ? "of mean turn" : "of mean slip", "%.4e"},
-                           {"stiffness", "secant", "%.4e"},
-                           {"loss_factor", "loss factor", "%.4f"}});
+      "interface_cycles",
+      {{"cycle", "cycle"},
+       {"interface", "interface"},
+       {"dissipation", "dissipation" + u.total(1), "%.4e"},
+       {"work", (twists() ? "area of -torque" : "area of -T") + u.total(1), "%.4e"},
+       {"shear_range", twists() ? "range of torque" + u.total(1) : "range of T" + u.total(0),
+        "%.4e"},
+       {"slip_range", twists() ? "of mean turn" : "of mean slip" + u.of(0, 1), "%.4e"},
+       {"stiffness", "secant" + u.total(twists() ? 1 : -1), "%.4e"},
+       {"loss_factor", "loss factor", "%.4f"}});
    for (const ordered_json &row : study_.rows_before(table.name()))
    {
       study_.row(table, table.values(row));
@@ -297,12 +301,14 @@ void JointReport::report_cycles(const MarchReport &march)
 
 void JointReport::report_bolts(const ContactState &state)
 {
-   ResultTable &table = study_.table("bolts", {{"bolt", "bolt"},
-                                               {"tightened_to", "tightened to", "%.6g"},
-                                               {"all_tightened", "all tightened", "%.6g"},
-                                               {"force", "force at the end", "%.6g"},
-                                               {"least", "least", "%.6g"},
-                                               {"most", "most since tightened", "%.6g"}});
+   const Units &u = study_.units;
+   ResultTable &table =
+      study_.table("bolts", {{"bolt", "bolt"},
+                             {"tightened_to", "tightened to" + u.total(0), "%.6g"},
+                             {"all_tightened", "all tightened" + u.total(0), "%.6g"},
+                             {"force", "force at the end" + u.total(0), "%.6g"},
+                             {"least", "least" + u.total(0), "%.6g"},
+                             {"most", "most since tightened" + u.total(0), "%.6g"}});
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {

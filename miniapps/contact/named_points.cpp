@@ -157,25 +157,26 @@ void NamedPoints::report(const ContactState &state)
 {
    if (places_.empty()) { return; }
    const bool plane = joint_.formulation == Formulation::plane;
-   ResultTable &table =
-      study_.table("points", {{"point", "point"},
-                              {"body", "of"},
-                              {"x", plane ? "at x" : "at r", "%.5g"},
-                              {"y", plane ? "y" : "z", "%.5g"},
-                              {"ux", plane ? "moves in x" : "moves in r", "%.5g"},
-                              {"uy", plane ? "in y" : "in z", "%.5g"},
-                              {"xx", plane ? "stress xx" : "stress rr", "%.5g"},
-                              {"yy", plane ? "yy" : "zz", "%.5g"},
-                              {"zz", plane ? "zz" : "circumferential", "%.5g"},
-                              {"xy", plane ? "xy" : "rz", "%.5g"},
-                              {"von_mises", "von Mises", "%.5g"}});
+   const Units &u = study_.units;
+   ResultTable &table = study_.table(
+      "points", {{"point", "point"},
+                 {"body", "of"},
+                 {"x", std::string(plane ? "at x" : "at r") + u.of(0, 1), "%.5g"},
+                 {"y", std::string(plane ? "y" : "z") + u.of(0, 1), "%.5g"},
+                 {"ux", std::string(plane ? "moves in x" : "moves in r") + u.of(0, 1), "%.5g"},
+                 {"uy", std::string(plane ? "in y" : "in z") + u.of(0, 1), "%.5g"},
+                 {"xx", std::string(plane ? "stress xx" : "stress rr") + u.of(1, -2), "%.5g"},
+                 {"yy", std::string(plane ? "yy" : "zz") + u.of(1, -2), "%.5g"},
+                 {"zz", std::string(plane ? "zz" : "circumferential") + u.of(1, -2), "%.5g"},
+                 {"xy", std::string(plane ? "xy" : "rz") + u.of(1, -2), "%.5g"},
+                 {"von_mises", "von Mises" + u.of(1, -2), "%.5g"}});
    const std::vector<Value> now = values(state);
    for (std::size_t k = 0; k < places_.size(); ++k)
    {
       const Place &place = places_[k];
-      const auto &[u, s] = now[k];
+      const auto &[moved, s] = now[k];
       study_.row(table, {place.name, joint_.bodies[place.body].name, place.at[0], place.at[1],
-                         u[0], u[1], s.xx, s.yy, s.zz, s.xy, s.von_mises()});
+                         moved[0], moved[1], s.xx, s.yy, s.zz, s.xy, s.von_mises()});
    }
 }
 

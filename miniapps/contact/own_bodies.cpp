@@ -13,24 +13,6 @@ namespace miniapp
 
 using namespace cattaneo;
 
-namespace
-{
-
-/// Forces of a plane body of this thickness, in place of forces per thickness.
-void multiply(CondensedBody &body, double thickness)
-{
-   if (thickness == 1) { return; }
-   body.S *= thickness;
-   body.H *= thickness;
-   for (LoadPattern &load : body.patterns)
-   {
-      load.q *= thickness;
-      load.p *= thickness;
-   }
-}
-
-} // namespace
-
 OwnBodies make_own_bodies(const JointCase &joint)
 {
    OwnBodies own;
@@ -96,7 +78,10 @@ OwnBodies make_own_bodies(const JointCase &joint)
       }
       condensed.push_back(parts[b].named([&] { return parts[b].condensed(line, alike); }));
       own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
-      multiply(condensed.back(), joint.thickness_of(static_cast<int>(b)));
+      if (joint.formulation == Formulation::plane)
+      {
+         condensed.back().thicken(joint.thickness_of(static_cast<int>(b)));
+      }
    }
    if (half_planes > 0)
    {

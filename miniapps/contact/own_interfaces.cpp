@@ -214,10 +214,6 @@ void complete(OwnBodies &own, const JointCase &joint,
       const JointCase::Face &face = joint.faces[k];
       InterfaceReport &report = reduction.interfaces[k];
       report.name = face.name;
-      if (!face.tied)
-      {
-         problem.weights.segment(report.first, report.nodes) *= joint.thickness_of(face);
-      }
       if (face.gap && face.sides[1].body >= 0) // whatever the geometry is
       {
          report.chords.setZero();

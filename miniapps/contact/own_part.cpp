@@ -303,6 +303,11 @@ void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
 ContactLine OwnPart::line(const JointCase::Side &side) const
 {
    require(!side.part.empty(), side.called, " is empty, must name boundary attributes");
+   if (elastic_)
+   {
+      const BoundaryPart part = boundary_part(side.called, side.part, terms_);
+      warn_of_cut_elements(*elastic_->space().GetMesh(), part, side.called, side.part);
+   }
    ContactLine made =
       nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part), body_.order)
              : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));

@@ -354,4 +354,33 @@ void SidesThatBear::warn() const
                 "no boundary around a corner as contact"));
 }
 
+void warn_of_cut_elements(const mfem::Mesh &mesh, const BoundaryPart &part,
+                          const std::string &called, const std::string &name)
+{
+   int count = 0;
+   std::string first;
+   for (int e = 0; e < mesh.GetNBE(); ++e)
+   {
+      const std::vector<int> &its = part.attributes;
+      if (std::count(its.begin(), its.end(), mesh.GetBdrAttribute(e)) == 0) { continue; }
+      mfem::Array<int> ends;
+      mesh.GetBdrElementVertices(e, ends);
+      const double *a = mesh.GetVertex(ends[0]), *b = mesh.GetVertex(ends[1]);
+      const double low = std::min(a[part.axis], b[part.axis]),
+                   high = std::max(a[part.axis], b[part.axis]), small = 1e-9 * (high - low);
+      const bool cut = (part.lo > low + small && part.lo < high - small) ||
+                       (part.hi > low + small && part.hi < high - small);
+      if (!cut) { continue; }
+      if (count++ == 0)
+      {
+         first = "from " + as_text(Eigen::Vector2d(a[0], a[1])) + " to " +
+                 as_text(Eigen::Vector2d(b[0], b[1]));
+      }
+   }
+   if (count == 0) { return; }
+   warn(called + ": the interval of '" + name + "' ends within an element, " + first +
+        ", which is left out of the contact: nothing bears there, and the nodes beside it bear "
+        "more. It must end where elements end, or the mesh must have a node there");
+}
+
 } // namespace miniapp

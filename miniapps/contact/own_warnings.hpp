@@ -78,4 +78,9 @@ private:
    Node worst_;
 };
 
+/// Where the interval of a side of an interface ends within an element, which the contact does
+/// not have.
+void warn_of_cut_elements(const mfem::Mesh &mesh, const cattaneo::BoundaryPart &part,
+                          const std::string &called, const std::string &name);
+
 } // namespace miniapp

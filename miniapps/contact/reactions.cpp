@@ -203,15 +203,16 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
                       const JointReport &report, const ContactState &state)
 {
    const bool plane = joint.formulation == Formulation::plane;
-   ResultTable &reactions =
-      study.table("reactions", {{"body", "forces on"},
-                                {"kind", "by"},
-                                {"name", "called"},
-                                {"force_x", plane ? "x" : "", "%.6g"},
-                                {"force_y", plane ? "y" : "axial", "%.6g"},
-                                {"moment", plane ? "moment" : "", "%.4g"},
-                                {"about_x", plane ? "about x" : "", "%.5g"},
-                                {"about_y", plane ? "y" : "", "%.5g"}});
+   const Units &u = study.units;
+   ResultTable &reactions = study.table(
+      "reactions", {{"body", "forces on"},
+                    {"kind", "by"},
+                    {"name", "called"},
+                    {"force_x", headed(plane ? "x" : "", u.total(0)), "%.6g"},
+                    {"force_y", std::string(plane ? "y" : "axial") + u.total(0), "%.6g"},
+                    {"moment", headed(plane ? "moment" : "", u.total(1)), "%.4g"},
+                    {"about_x", headed(plane ? "about x" : "", u.of(0, 1)), "%.5g"},
+                    {"about_y", headed(plane ? "y" : "", u.of(0, 1)), "%.5g"}});
    std::vector<std::pair<std::string, double>> balances;
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {

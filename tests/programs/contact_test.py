@@ -295,7 +295,6 @@ MISTAKES = [
     ({LOAD: "P push 2 1"}, [], ["kind 'push'", "pressure, traction, body-force"]),
     ({LOAD: "P pressure 2 nan"}, [], ["'nan'", "a function of x and y"]),
     ({LOAD: "P pressure 2 1*z"}, [], ["'1*z'", "a function of x and y"]),
-    ({LOAD: "P pressure 2 1; P displacement-x 4 1"}, [], ["load pattern 'P'", "displacement"]),
     ({}, ["--history", "P=0; Q=1"], ["history 'Q=1'", "no load pattern 'Q'", "P"]),
     ({}, ["--history", "P=0; P=one"], ["history", "'one'", "not a number"]),
     ({}, ["--history", "P=1; P=2"], ["history", "first point", "must be 0"]),

@@ -467,3 +467,148 @@ def test_zones_of_a_disc_begin_at_the_axis(run):
     got = run.case({"analysis": "axisymmetric", "bodies": {"shaft": body("shaft.mesh", "1:z"), "hub": body("hub.mesh", "1:z", ["P pressure 2 1"])},
                     "interfaces": {"fit": face("shaft:2", "hub:4")}, "history": ["P=0", "P=1"]})
     near(sum(zone["to"] - zone["from"] for zone in got["zones"]), 1, 1e-9)
+
+
+def pushed_pad(run, base, pad_moves):
+    """A pad that is pressed on a base and moved along it by both of its side faces, with the corners of the contact; or the base's
+    bottom is moved the other way, and the pad's faces are held."""
+    run.block("pad.mesh", 0, 2, 7, 0, 1, 4)
+    run.block("base.mesh", -1, 3, base, -2, 0, 8)
+    pad = body("pad.mesh", None if pad_moves else "2:x 4:x", ["P pressure 3 50", *(["D displacement-x 2,4 0.1"] if pad_moves else [])], 1000, 0.3)
+    lower = body("base.mesh", "1:xy" if pad_moves else "1:y", [] if pad_moves else ["D displacement-x 1 -0.1"], 800, 0.2)
+    return {"bodies": {"pad": pad, "base": lower}, "interfaces": {"flat": face("pad:1", "base:3", 0.3)}, "history": ["P=0", "P=1", "D=1", "D=-0.5"]}
+
+
+@pytest.mark.parametrize("base", [6, 20])
+def test_a_face_is_moved_with_a_corner_of_the_contact(run, base):
+    """It does not matter which of two bodies is moved: tractions, slip, losses and the reaction are the same. Nothing is left out, since
+    nodes of the base face the corners."""
+    tables = []
+    for moves in (True, False):
+        got = run.case(pushed_pad(run, base, moves), "--csv", run.folder / "out")
+        assert "law of friction is left out" not in got.warned()
+        for row in got["balance"]:
+            assert row["imbalance"] < 1e-9
+        tables.append((run.columns("out_nodes.csv"), run.columns("out_history.csv")))
+    (nodes, history), (other_nodes, other_history) = tables
+    for one, other, names in ((nodes, other_nodes, ("p", "q", "slip", "opening")),
+                              (history, other_history, ("reaction D", "displacement P", "total_dissipation", "external_work"))):
+        for name in names:
+            alike(one[name], other[name], 1e-8 * max(map(abs, one[name])))
+    assert max(history["total_dissipation"]) > 0.1
+
+
+def test_a_bar_is_pulled_over_a_rigid_floor(run):
+    """Held at one end and moved at the other, with both corners of the contact: a bar under a pressure, its strain and reaction by hand.
+    With friction the corner that is moved has none, which is said."""
+    run.block("bar.mesh", 0, 4, 8, 0, 1, 3)
+    case = {"analysis": "plane stress", "bodies": {"bar": body("bar.mesh", "4:x", ["P pressure 3 5", "D displacement-x 2 0.01"])},
+            "interfaces": {"floor": {"between": ["bar:1"]}}, "history": ["P=0", "P=1", "D=1"]}
+    got = run.case(case, "--csv", run.folder / "out")
+    near(run.columns("out_history.csv")["reaction D"][-1], 1000 * 0.01 / 4 * 0.01, 1e-12)
+    nodes = run.columns("out_nodes.csv")
+    near_all(nodes["p"], 5, 1e-10)
+    for x, slip in zip(nodes["x"], nodes["slip"]):
+        near(slip, 0.01 * x / 4 if x < 4 else 0, 1e-12)
+    assert "load 'D' moves node" in got.warned() and "law of friction is left out at that node" in got.warned()
+    moved = next(row for row in got["reactions"] if row["name"] == "D")
+    near(moved["force_x"], 1000 * 0.01 / 4, 1e-9)
+    # It is no plane of symmetry: contact ends there.
+    rough = run.case(changed(case, {"interfaces.floor.friction": 0.1, "history": ["P=0", "P=1", "D=1", "D=2"]}))
+    for row in rough["balance"]:
+        assert row["imbalance"] < 1e-9
+    assert "law of friction is left out" in rough.warned()
+
+
+def test_a_press_fit_is_pushed_out_by_a_displacement(run):
+    """The sleeve's end is moved, with the corner of the fit: once all slides the reaction is f p 2π R L, to the 1 % that the shear
+    changes the pressure at the ends by."""
+    case, lame = press_fit(run)
+    case["bodies"]["sleeve"]["load"] = "Z displacement-z 3 1"
+    case["history"] = ["Z=0", "Z=0.02"]
+    case["increments"] = 4
+    got = run.case(case, "--csv", run.folder / "out")
+    most = 0.2 * 2 * math.pi * 2 * lame
+    near(run.columns("out_history.csv")["reaction Z"][-1], most, 0.01 * most)
+    assert got.interface("fit")["stick"] == 0 and "law of friction is left out" not in got.warned()
+    near(next(row for row in got["reactions"] if row["body"] == "hub")["force_y"], -most, 0.01 * most)
+
+
+def test_a_load_moves_one_body_and_pushes_another(run):
+    """As two loads that the history has at once. Its displacements are a load of their own in the results."""
+    run.block("pad.mesh", 0, 2, 6, 0, 1, 3)
+    run.block("base.mesh", -1, 3, 12, -1, 0, 3)
+    case = {"bodies": {"pad": body("pad.mesh", None, ["P pressure 3 20", "Q traction 2 1 0"], 1000, 0.3), "base": body("base.mesh", "1:y", ["Q displacement-x 1 0.01"], 1000, 0.3)},
+            "interfaces": {"flat": face("pad:1", "base:3", 0.6)}, "history": ["P=0", "P=1", "Q=1", "Q=-1"]}
+    one = run.case(case, "--csv", run.folder / "one")
+    two = run.case(changed(case, {"bodies.base.load": ["D displacement-x 1 0.01"], "history": ["P=0", "P=1", "Q=1 D=1", "Q=-1 D=-1"]}), "--csv", run.folder / "two")
+    first, second = run.columns("one_history.csv"), run.columns("two_history.csv")
+    for name, other in (("displacement Q", "displacement Q"), ("reaction Q.moved", "reaction D"), ("load Q.moved", "load D"), ("total_dissipation", "total_dissipation")):
+        assert first[name] == second[other], name
+    assert one["loads"] == {"P": 1, "Q": -1, "Q.moved": -1} and two["loads"]["D"] == -1
+    assert "history names 'Q.moved', which goes with 'Q'" in run.refused(changed(case, {"history": ["P=0", "P=1", "Q=1 Q.moved=1"]}))
+    # An obstacle that is moved by the load that pushes the pad.
+    floor = {"bodies": {"pad": body("pad.mesh", None, ["P pressure 3 20", "Q traction 2 1 0"], 1000, 0.3)},
+             "interfaces": {"flat": {"between": ["pad:1"], "friction": 0.6, "motion": {"Q": {"x": 0.01}}}}, "history": ["P=0", "P=1", "Q=1"]}
+    got = run.case(floor)
+    near(got["loads"]["Q.moved"], 1, 0)
+
+
+def test_zones_on_a_circle_have_angles(run):
+    """The pin's side is a circle of radius 5 about its middle: the ends of zones lie at their angles on it, one after the other."""
+    got = run.case({**shipped("pin"), "cycles": 1})
+    zones = got["zones"]
+    assert len(zones) > 2
+    before = None
+    for zone in zones:
+        for end in ("from", "to"):
+            angle = math.degrees(math.atan2(zone[end + "_y"], zone[end + "_x"]))
+            near(math.remainder(zone[end + "_angle"] - angle, 360), 0, 1e-6)
+        if before is not None:
+            near(math.remainder(zone["from_angle"] - before, 360), 0, 1e-6)
+        before = zone["to_angle"]
+    # Sides that are straight have none.
+    run.block("pad.mesh", 0, 2, 6, 0, 1, 3)
+    flat = run.case({"bodies": {"pad": body("pad.mesh", "4:x", ["P pressure 3 20"])}, "interfaces": {"flat": {"between": ["pad:1"]}}, "history": ["P=0", "P=1"]})
+    assert all(zone["from_angle"] is None for zone in flat["zones"])
+
+
+def test_units_are_printed_by_their_names(run):
+    """Nothing is converted. Forces are per length of thickness unless the case has a thickness."""
+    case = {**columns_case(run), "history": ["bolt=0", "bolt=1", "F=10"]}
+    plain = run.case(case)
+    named = run.case({**case, "units": {"length": "mm", "force": "N"}})
+    assert named["units"] == {"length": "mm", "force": "N"}
+    assert "forces in [N/mm]" in named.output and "N (pressing) [N/mm]" in named.output and "force at the end [N/mm]" in named.output
+    assert "peak pressure [N/mm²]" in named.output and "to (arc length) [mm]" in named.output
+    assert named["bolts"] == plain["bolts"]
+    assert "[mm]" not in plain.output and "units" not in plain.results
+    thick = run.case({**case, "thickness": 5, "units": {"length": "mm", "force": "N"}})
+    assert "thickness 5 [mm]" in thick.output and "force at the end [N]" in thick.output and "moment [N mm]" in thick.output
+    assert "has no 'force', must have one" in run.refused({**case, "units": {"length": "mm"}})
+    assert "must be the name of a unit, as N" in run.refused({**case, "units": {"length": "mm", "force": ""}})
+
+
+def test_ties_come_before_contacts_that_share_their_nodes(run):
+    """A pad of which the ends are tied: whichever order the file has, the answer is the same; a uniform pressure is exact where nodes do
+    not match; and an interval that ends within an element is told."""
+    run.block("pad.mesh", -1, 1, 10, 0, 1, 4)
+    run.block("base.mesh", -1, 1, 15, -1, 0, 4)
+    ties = {name: {"between": [f"pad:1[{where}]", "base:3"], "tied": True, "slave": "first"} for name, where in (("left", "-1<x<-0.4"), ("right", "0.4<x<1"))}
+    middle = {"middle": {**face("pad:1[-0.4<x<0.4]", "base:3", 0.3), "slave": "first"}}
+    answers = []
+    for order in (1, 2):
+        for interfaces in ({**ties, **middle}, {**middle, **ties}):
+            case = {"order": order, "bodies": {"pad": body("pad.mesh", None, ["P pressure 3 1", "Q traction 2 0.2 0"], 1000, 0.3), "base": body("base.mesh", "1:y @0,-1:x", [], 1000, 0.3)},
+                    "interfaces": interfaces, "history": ["P=0", "P=1"]}
+            got = run.case(case, "--csv", run.folder / "out")
+            nodes = run.columns("out_nodes.csv")
+            near_all(nodes["p"], 1, 1e-9)
+            assert "ends within an element" not in got.warned()
+            run.case(changed(case, {"history": ["P=0", "P=1", "Q=1"]}), "--csv", run.folder / "out")
+            answers.append(run.columns("out_nodes.csv"))
+    for one, other in (answers[:2], answers[2:]):
+        for name in ("x", "p", "q", "slip"):
+            alike(one[name], other[name], 1e-12)
+    cut = run.case(changed(case, {"interfaces.middle.between": ["pad:1[-0.4<x<0.35]", "base:3"]}))
+    assert "the interval of 'pad:1[-0.4<x<0.35]' ends within an element" in cut.warned() or "the interval of '1[-0.4<x<0.35]' ends within an element" in cut.warned()
