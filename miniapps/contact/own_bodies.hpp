@@ -28,6 +28,13 @@ struct HeldBody
    std::vector<Eigen::Vector2d> place; ///< of each dof
    std::vector<cattaneo::BodyLoad> loads;
    std::vector<Holding> holdings;
+   /// The same around the axis, where the body twists: of the turns of its nodes, and torques.
+   struct Around
+   {
+      cattaneo::SharedMatrix K;
+      std::vector<cattaneo::BodyLoad> loads;
+      std::vector<Holding> holdings;
+   } around;
    /// Supports are no rows of K: what they bear is what is left over.
    bool supports_left_out = false;
 };

@@ -206,16 +206,40 @@ std::vector<int> OwnPart::fixed() const
    return {dofs.begin(), dofs.end()};
 }
 
+namespace
+{
+
+/// What holds dofs that were free before it was done.
+void note_holding(std::vector<Holding> &all, const std::string &kind, const std::string &name,
+                  const std::vector<int> &before, const std::vector<int> &after)
+{
+   Holding made{kind, name, {}};
+   std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                       std::back_inserter(made.dofs));
+   if (!made.dofs.empty()) { all.push_back(std::move(made)); }
+}
+
+} // namespace
+
 template <class Hold>
 void OwnPart::hold(const std::string &kind, const std::string &name, Hold hold)
 {
    const std::vector<int> before = fixed();
    hold();
-   const std::vector<int> after = fixed();
-   Holding made{kind, name, {}};
-   std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
-                       std::back_inserter(made.dofs));
-   if (!made.dofs.empty()) { holdings_.push_back(std::move(made)); }
+   note_holding(holdings_, kind, name, before, fixed());
+}
+
+template <class Hold>
+void OwnPart::hold_around(const std::string &kind, const std::string &name, Hold hold)
+{
+   const auto held = [&]
+   {
+      const mfem::Array<int> dofs = twisting_->essential_dofs();
+      return std::vector<int>(dofs.begin(), dofs.end());
+   };
+   const std::vector<int> before = held();
+   hold();
+   note_holding(around_, kind, name, before, held());
 }
 
 HeldBody OwnPart::held() const
@@ -250,6 +274,10 @@ HeldBody OwnPart::held() const
       }
    }
    made.loads = elastic_->patterns();
+   if (twisting_)
+   {
+      made.around = {twisting_->shared_stiffness(), twisting_->patterns(), around_};
+   }
    return made;
 }
 
@@ -295,8 +323,18 @@ void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
    named(
       [&]
       {
-         add_supports(*twisting_, body_.source.called("support"), body_.support, terms_);
-         add_loads(*twisting_, body_.source.called("load"), body_.load, terms_);
+         const std::string support = body_.source.called("support");
+         for (const std::string &one : split(body_.support, " ;\t\n"))
+         {
+            hold_around("support", one,
+                        [&] { add_supports(*twisting_, support, one, terms_); });
+         }
+         for (const std::string &one : split(body_.load, ";\n"))
+         {
+            hold_around("displacement", split(one, " \t")[0],
+                        [&]
+                        { add_loads(*twisting_, body_.source.called("load"), one, terms_); });
+         }
       });
 }
 

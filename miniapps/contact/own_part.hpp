@@ -59,6 +59,9 @@ private:
    /// Does what holds something; all that was free before is its.
    template <class Hold>
    void hold(const std::string &kind, const std::string &name, Hold hold);
+   /// The same around the axis.
+   template <class Hold>
+   void hold_around(const std::string &kind, const std::string &name, Hold hold);
    /// Boundary attributes of the body's sides of interfaces; of slits: on which it meets
    /// itself.
    std::vector<int> of_sides(int b, bool slits = false) const;
@@ -69,8 +72,8 @@ private:
    cattaneo::ElasticBody *elastic_ = nullptr, *twisting_ = nullptr;
    std::optional<cattaneo::NodalStiffness> nodal_;
    cattaneo::BodyTerms terms_;
-   cattaneo::SmoothSides sides_; ///< of the mesh, and what was done to it
-   std::vector<Holding> holdings_;
+   cattaneo::SmoothSides sides_;            ///< of the mesh, and what was done to it
+   std::vector<Holding> holdings_, around_; ///< the second around the axis
 };
 
 /// Of bodies that are matrices each takes the part of its file that has the sets which its

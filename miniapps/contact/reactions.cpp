@@ -64,12 +64,14 @@ public:
       if (held_.K.size() == 0) { return; }
       add_loads();
       add_holdings();
+      if (held_.around.K.size() > 0) { add_torques(); }
    }
 
    struct Named
    {
       std::string kind, name;
       Sum sum;
+      double torque = 0, torque_size = 0; ///< around the axis
    };
    const std::vector<Named> &held() const { return named_; }
    const Sum &contact() const { return contact_; }
@@ -88,8 +90,10 @@ public:
          largest = std::max(largest, one.sum.largest());
       }
       for (const Vector2d &place : held_.place) { reach = std::max(reach, place.norm()); }
-      if (largest == 0) { return none; }
-      if (!plane_) { return std::abs(all.force[1]) / largest; }
+      const double turns = torque_largest_ > 0 ? std::abs(torque_) / torque_largest_ : none;
+      if (largest == 0) { return turns; }
+      // NaN, where nothing turns, is no larger than a number.
+      if (!plane_) { return std::fmax(std::abs(all.force[1]) / largest, turns); }
       return std::max(all.largest(), std::abs(all.moment) / reach) / largest;
    }
 
@@ -177,6 +181,68 @@ private:
       named_.push_back({"support", "left out of the matrix", left});
    }
 
+   /// Around the axis: torques of loads, contact, supports and prescribed turns.
+   void add_torques()
+   {
+      const HeldBody::Around &around = held_.around;
+      const Index n = reduction_.problem.nodes();
+      VectorXd rest = around.K.view() * reduction_.twist(body_, state_.v, state_.multipliers);
+      const auto add = [&](double torque)
+      {
+         torque_ += torque;
+         torque_largest_ = std::max(torque_largest_, std::abs(torque));
+      };
+      for (const BodyLoad &load : around.loads)
+      {
+         if (load.control != Control::force) { continue; }
+         const double factor = loads_[reduction_.problem.pattern(load.name)];
+         rest -= factor * load.values;
+         add(factor * load.values.sum());
+      }
+      const VectorXd tied = reduction_.tied_twisting(state_.v, state_.multipliers),
+                     around_axis = state_.q.tail(n),
+                     contact = reduction_.contact_torques(body_, around_axis, tied);
+      for (const InterfaceReport &face : reduction_.interfaces)
+      {
+         if (face.bodies[1] >= 0 || face.bodies[0] != body_) { continue; }
+         const auto its = std::find_if(named_.begin(), named_.end(),
+                                       [&](const Named &named) {
+                                          return named.name == face.name &&
+                                                 named.kind == (face.tied ? "tie" : "obstacle");
+                                       });
+         for (Index i = 0; i < face.nodes; ++i)
+         {
+            const double q = (face.tied ? tied : around_axis)[face.first + i],
+                         torque = face.position(i, 0) * q;
+            its->torque += torque;
+            its->torque_size += std::abs(torque);
+         }
+      }
+      const ContactLine &line = reduction_.torsion[body_].line;
+      for (Index i = 0; i < line.size(); ++i) { rest[line.nodes[i].dofs[0]] -= contact[i]; }
+      add(contact.sum());
+      for (const Holding &one : around.holdings)
+      {
+         double torque = 0, size = 0;
+         for (const int dof : one.dofs)
+         {
+            torque += rest[dof];
+            size += std::abs(rest[dof]);
+         }
+         add(torque);
+         auto its = std::find_if(named_.begin(), named_.end(),
+                                 [&](const Named &named)
+                                 { return named.kind == one.kind && named.name == one.name; });
+         if (its == named_.end())
+         {
+            named_.push_back({one.kind, one.name, {}});
+            its = named_.end() - 1;
+         }
+         its->torque += torque;
+         its->torque_size += size;
+      }
+   }
+
    Vector2d along(Index dof, double force) const
    {
       Vector2d made(0, 0);
@@ -193,7 +259,7 @@ private:
    const ContactState &state_;
    VectorXd loads_, tied_, field_;
    Sum contact_, obstacles_, loaded_;
-   double contact_largest_ = 0, loaded_largest_ = 0;
+   double contact_largest_ = 0, loaded_largest_ = 0, torque_ = 0, torque_largest_ = 0;
    std::vector<Named> named_;
 };
 
@@ -204,6 +270,7 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
 {
    const bool plane = joint.formulation == Formulation::plane;
    const Units &u = study.units;
+   const bool twists = !own.scene.reduction.torsion.empty();
    ResultTable &reactions = study.table(
       "reactions", {{"body", "forces on"},
                     {"kind", "by"},
@@ -211,6 +278,7 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
                     {"force_x", headed(plane ? "x" : "", u.total(0)), "%.6g"},
                     {"force_y", std::string(plane ? "y" : "axial") + u.total(0), "%.6g"},
                     {"moment", headed(plane ? "moment" : "", u.total(1)), "%.4g"},
+                    {"torque", headed(twists ? "torque" : "", u.total(1)), "%.6g"},
                     {"about_x", headed(plane ? "about x" : "", u.of(0, 1)), "%.5g"},
                     {"about_y", headed(plane ? "y" : "", u.of(0, 1)), "%.5g"}});
    std::vector<std::pair<std::string, double>> balances;
@@ -218,7 +286,8 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
    {
       const Forces forces(own, report, joint, static_cast<int>(b), state);
       const std::string &name = own.scene.reduction.bodies[b].name;
-      const auto add = [&](const std::string &kind, const std::string &called, const Sum &sum)
+      const auto add = [&](const std::string &kind, const std::string &called, const Sum &sum,
+                           double torque = 0)
       {
          const Vector2d about = sum.about();
          const double x = settled(sum.force[0], sum.size), y = settled(sum.force[1], sum.size),
@@ -226,9 +295,12 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
                          settled(sum.moment - about[0] * sum.force[1] + about[1] * sum.force[0],
                                  2 * sum.lever);
          study.row(reactions, {name, kind, called, plane ? x : none, y, plane ? moment : none,
-                               about[0], about[1]});
+                               twists ? torque : none, about[0], about[1]});
       };
-      for (const Forces::Named &one : forces.held()) { add(one.kind, one.name, one.sum); }
+      for (const Forces::Named &one : forces.held())
+      {
+         add(one.kind, one.name, one.sum, settled(one.torque, one.torque_size));
+      }
       if (joint.bodies[b].half_plane)
       {
          Sum far = forces.contact();
@@ -238,12 +310,13 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
       }
       if (forces.known()) { balances.emplace_back(name, forces.imbalance()); }
    }
-   ResultTable &balance =
-      study.table("balance", {{"body", "body"},
-                              {"imbalance",
-                               plane ? "imbalance of forces and moments over the largest force"
-                                     : "imbalance of axial forces over the largest force",
-                               "%.1e"}});
+   ResultTable &balance = study.table(
+      "balance", {{"body", "body"},
+                  {"imbalance",
+                   plane    ? "imbalance of forces and moments over the largest force"
+                   : twists ? "imbalance of axial forces over the largest force, and of torques"
+                            : "imbalance of axial forces over the largest force",
+                   "%.1e"}});
    for (const auto &[name, imbalance] : balances) { study.row(balance, {name, imbalance}); }
 }
 

@@ -612,3 +612,32 @@ def test_ties_come_before_contacts_that_share_their_nodes(run):
             alike(one[name], other[name], 1e-12)
     cut = run.case(changed(case, {"interfaces.middle.between": ["pad:1[-0.4<x<0.35]", "base:3"]}))
     assert "the interval of 'pad:1[-0.4<x<0.35]' ends within an element" in cut.warned() or "the interval of '1[-0.4<x<0.35]' ends within an element" in cut.warned()
+
+
+def test_reactions_around_the_axis(run):
+    """A shaft of two parts, turned at one end: each support, tie and obstacle has its torque, and they balance."""
+    case, lame = press_fit(run)
+    case["bodies"]["hub"]["support"] = "1:zt"
+    case["bodies"]["sleeve"]["support"] = "1:z"
+    case["bodies"]["sleeve"]["load"] = f"T traction-t 3 {1 / (math.pi / 2 * (1 - 0.5**4))!r}*r"
+    torque = 0.5 * 0.2 * 2 * math.pi * 2 * lame
+    got = run.case({**case, "history": ["T=0", f"T={torque!r}"]})
+    rows = {(row["body"], row["name"]): row for row in got["reactions"]}
+    near(rows["hub", "1:zt"]["torque"], -torque, 1e-9 * torque)
+    near(rows["sleeve", "1:z"]["torque"], 0, 1e-12)
+    for row in got["balance"]:
+        assert row["imbalance"] < 1e-9
+    # Tied, and turned by an angle against a rigid floor that it stands on: the floor takes what the angle does.
+    run.block("shaft.mesh", 0.5, 1, 4, 0, 2, 8)
+    run.block("head.mesh", 0.5, 1, 6, 2, 3, 4)
+    turned = {"analysis": "axisymmetric", "bodies": {"shaft": body("shaft.mesh"), "head": body("head.mesh", None, ["P pressure 3 5", "W twist 3 1e-3"])},
+              "interfaces": {"floor": {"between": ["shaft:1"], "friction": 0.5}, "glue": {"between": ["head:1", "shaft:3"], "tied": True}}, "history": ["P=0", "P=1", "W=1"]}
+    got = run.case(turned, "--csv", run.folder / "out")
+    rows = {(row["body"], row["name"]): row for row in got["reactions"]}
+    # G J φ/L of a shaft that sticks, as it does under an angle this small.
+    expected = 500 * math.pi / 2 * (1 - 0.5**4) * 1e-3 / 3
+    near(rows["head", "W"]["torque"], expected, 1e-8 * expected)
+    near(rows["shaft", "floor"]["torque"], -rows["head", "W"]["torque"], 1e-9 * expected)
+    near(run.columns("out_history.csv")["reaction W"][-1] / 1e-3, rows["head", "W"]["torque"], 1e-9 * expected)
+    for row in got["balance"]:
+        assert row["imbalance"] < 1e-9

@@ -5,6 +5,7 @@
 #include <cattaneo/reduced/union.hpp>
 #include <limits>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace cattaneo
@@ -126,21 +127,28 @@ void say_held(const Reduction &reduction, const InterfaceReport &face,
    }
 }
 
-/// Nodes that loads move along an interface, whose friction is left out.
+/// The first node that a load moves along an interface, and whose friction is left out.
 void say_moved(const Reduction &reduction, const InterfaceReport &face,
                const std::vector<bool> &bears, std::vector<std::string> &said)
 {
+   const InterfaceReport::Moved *first = nullptr;
+   std::set<Index> nodes;
    for (const InterfaceReport::Moved &one : face.moved)
    {
       if (!bears[one.node]) { continue; }
-      said.push_back(sentence(
-         "interface '", face.name, "': load '", reduction.problem.patterns[one.pattern].name,
-         "' moves node ", one.node, " at ", at(reduction.problem.position.row(one.node)),
-         ", which bears, along the contact, and what it faces cannot follow: the law "
-         "of friction is left out at that node, and results have neither its friction "
-         "nor its slip. Both are there where the contact ends before the part that is "
-         "moved"));
+      if (!first) { first = &one; }
+      nodes.insert(one.node);
    }
+   if (!first) { return; }
+   const ReducedProblem &problem = reduction.problem;
+   said.push_back(sentence(
+      "interface '", face.name, "': load '", problem.patterns[first->pattern].name,
+      "' moves node ", first->node, " at ", at(problem.position.row(first->node)),
+      ", which bears, along the contact",
+      nodes.size() > 1 ? sentence(" (and ", nodes.size() - 1, " more)") : "",
+      ", and what it faces cannot follow: the law of friction is left out at that node, and "
+      "results have neither its friction nor its slip. Both are there where the contact ends "
+      "before the part that is moved"));
 }
 
 /// Distance of a place from the straight line between two others.

@@ -165,6 +165,14 @@ public:
    Eigen::MatrixX2d contact_forces(int b, const Eigen::VectorXd &q, const Eigen::VectorXd &p,
                                    const Eigen::VectorXd &tied = {}) const;
 
+   /** What contact nodes and ties put on body `b` around the axis: torques on the nodes of its
+       line.
+       @param q     circumferential forces of the contact nodes, the second component of q
+       @param tied  of tied_twisting(); none where nothing is tied
+       InputError if nothing twists, if there is no such body, or for other sizes. */
+   Eigen::VectorXd contact_torques(int b, const Eigen::VectorXd &q,
+                                   const Eigen::VectorXd &tied = {}) const;
+
    /// Displacement of all true dofs of body `b`, for relative displacements v (of all
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
    /// One solve with that body's factor. If two free bodies move together unresisted, the

@@ -40,4 +40,29 @@ MatrixX2d Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
    return forces;
 }
 
+VectorXd Reduction::contact_torques(int b, const VectorXd &q, const VectorXd &tied) const
+{
+   require(b >= 0 && b < static_cast<int>(torsion.size()), "contact torques: body ", b,
+           ", the reduction has ", torsion.size(), " that twist (counted from 0)");
+   const Index n = problem.nodes();
+   const auto ties = static_cast<Index>(rows_->tied.size());
+   require(q.size() == n && (ties == 0 || tied.size() == ties), "contact torques: ", q.size(),
+           " circumferential forces and ", tied.size(), " of tied nodes, must be ", n, " and ",
+           ties);
+   const ContactLine &line = torsion[b].line;
+   VectorXd torques = VectorXd::Zero(line.size());
+   const auto add = [&](int row, double force)
+   {
+      for (const TraceShare &share : rows_->rows[row].shares)
+      {
+         const Index node = share.of.second;
+         if (share.of.first != b) { continue; }
+         torques[node] += line.nodes[node].position[0] * share.x * force;
+      }
+   };
+   for (Index i = 0; i < n; ++i) { add(rows_->free[i], q[i]); }
+   for (Index i = 0; i < ties; ++i) { add(rows_->tied[i], tied[i]); }
+   return torques;
+}
+
 } // namespace cattaneo
