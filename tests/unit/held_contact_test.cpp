@@ -429,6 +429,25 @@ TEST(HeldContact, TwistThatIsHeldIsHeld)
    EXPECT_EQ(problem.held, std::vector<Eigen::Index>{2 * problem.nodes() - 1});
 }
 
+// Held it is a plane of symmetry, moved it is none, and no friction is known there.
+TEST(HeldContact, AMovedEndIsNoPlaneOfSymmetry)
+{
+   mfem::Mesh mesh = block("quads");
+   for (const bool moved : {false, true})
+   {
+      ElasticBody body(mesh, 2, Material{});
+      body.fix(3, 1);
+      if (moved) { body.add_displacement("push", 4, 0, 0.5); }
+      else { body.fix(4, 0); }
+      const CondensedBody condensed = condense(body, contact_line(body, 1));
+      EXPECT_EQ(condensed.line.chains[0].ends[0] == LineEnd::symmetry, !moved);
+      EXPECT_EQ(condensed.moved.size() > 0, moved);
+      const Reduction reduction = reduce(condensed);
+      EXPECT_EQ(reduction.problem.held, std::vector<Eigen::Index>{0});
+      EXPECT_EQ(reduction.interfaces[0].moved.size(), moved ? 1u : 0u);
+   }
+}
+
 TEST(HeldContact, WhatCannotBeContactIsRefused)
 {
    mfem::Mesh mesh = block("quads");
@@ -441,12 +460,10 @@ TEST(HeldContact, WhatCannotBeContactIsRefused)
                          "the contact node at (0, 0) is fixed normal to the line");
    }
    {
-      ElasticBody body(mesh, 1, Material{});
-      body.fix(3, 1);
-      body.add_displacement("push", 4, 0, 1.0);
+      ElasticBody body(mesh, 1, Material{}, Formulation::torsion);
+      body.add_displacement("turn", 2, 0, 1.0);
       expect_input_error([&] { condense(body, contact_line(body, 1)); },
-                         "component x of the contact node at (0, 0) is displaced by load "
-                         "pattern 'push'");
+                         "of the contact node at (2, 0) is turned by load pattern 'turn'");
    }
    {
       // Held at 20 degrees to the line.
