@@ -641,3 +641,19 @@ def test_reactions_around_the_axis(run):
     near(run.columns("out_history.csv")["reaction W"][-1] / 1e-3, rows["head", "W"]["torque"], 1e-9 * expected)
     for row in got["balance"]:
         assert row["imbalance"] < 1e-9
+
+
+def test_a_face_that_tilts_about_a_corner_of_the_contact(run):
+    """It is no plane of symmetry, although the corner is at rest: the answer is that of a corner that moves by next to nothing."""
+    run.block("pad.mesh", 0, 2, 8, 0, 1, 4)
+
+    def pressures(tilt):
+        case = {"bodies": {"pad": body("pad.mesh", None, ["P pressure 3 10", f"D displacement-x 4 {tilt}"], 1000, 0.3),
+                           "ground": {"half-plane": {"young": 1000, "poisson": 0.3, "depth": 100}}},
+                "interfaces": {"flat": face("pad:1", "ground", 0.3)}, "history": ["P=0", "P=1", "D=1"]}
+        run.case(case, "--csv", run.folder / "out")
+        return run.columns("out_nodes.csv")
+
+    still, moved = pressures("0.002*y"), pressures("0.002*y+1e-12")
+    for name in ("p", "q", "slip"):
+        alike(still[name], moved[name], 1e-6 * max(map(abs, moved[name])))

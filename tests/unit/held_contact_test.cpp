@@ -433,18 +433,23 @@ TEST(HeldContact, TwistThatIsHeldIsHeld)
 TEST(HeldContact, AMovedEndIsNoPlaneOfSymmetry)
 {
    mfem::Mesh mesh = block("quads");
-   for (const bool moved : {false, true})
+   for (const std::string way : {"held", "pushed", "tilted about its corner"})
    {
       ElasticBody body(mesh, 2, Material{});
       body.fix(3, 1);
-      if (moved) { body.add_displacement("push", 4, 0, 0.5); }
-      else { body.fix(4, 0); }
+      if (way == "held") { body.fix(4, 0); }
+      else if (way == "pushed") { body.add_displacement("push", 4, 0, 0.5); }
+      else
+      {
+         body.add_displacement("tilt", 4, 0, [](double, double y) { return y; });
+      }
       const CondensedBody condensed = condense(body, contact_line(body, 1));
-      EXPECT_EQ(condensed.line.chains[0].ends[0] == LineEnd::symmetry, !moved);
-      EXPECT_EQ(condensed.moved.size() > 0, moved);
+      EXPECT_EQ(condensed.line.chains[0].ends[0] == LineEnd::symmetry, way == "held");
+      EXPECT_EQ(condensed.moved.size() > 0, way == "pushed");
       const Reduction reduction = reduce(condensed);
       EXPECT_EQ(reduction.problem.held, std::vector<Eigen::Index>{0});
-      EXPECT_EQ(reduction.interfaces[0].moved.size(), moved ? 1u : 0u);
+      EXPECT_EQ(reduction.problem.chains[0].ends[0] == LineEnd::symmetry, way == "held");
+      EXPECT_EQ(reduction.interfaces[0].moved.size(), way == "pushed" ? 1u : 0u);
    }
 }
 

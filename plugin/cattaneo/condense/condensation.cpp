@@ -32,7 +32,7 @@ std::vector<int> align(ContactLine &line, const ContactDofs &contact)
    {
       components(position % n, position / n) = true;
       moved(position % n, position / n) =
-         contact.moved.size() > 0 && !contact.moved.row(position).isZero(0);
+         std::count(contact.in_moved_plane.begin(), contact.in_moved_plane.end(), position) > 0;
    }
    meet_supports(line, components, moved);
    std::vector<int> rows;
@@ -136,6 +136,27 @@ void ContactDofs::move(int position, Eigen::Index load, double by, const Contact
                                     static_cast<Eigen::Index>(loads.size()));
    }
    moved(position, load) = by;
+}
+
+bool moves_plane(const ContactLine &line, int position, const DofPlaces &places,
+                 const std::vector<int> &fixed, const std::vector<BodyLoad> &loads)
+{
+   const auto n = static_cast<int>(line.size());
+   const int c = position / n;
+   const LineNode &node = line.nodes[position % n];
+   const Eigen::VectorXd &along = c == 0 ? places.x : places.y;
+   return std::any_of(fixed.begin(), fixed.end(),
+                      [&](int dof)
+                      {
+                         return places.component[dof] == c &&
+                                std::abs(along[dof] - node.position[c]) <=
+                                   1e-6 * node.spacing &&
+                                std::any_of(loads.begin(), loads.end(),
+                                            [&](const BodyLoad &load) {
+                                               return load.control == Control::displacement &&
+                                                      load.values[dof] != 0;
+                                            });
+                      });
 }
 
 void refuse_motion(const ContactLine &line, int position, const std::string &how)

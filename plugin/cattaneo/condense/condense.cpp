@@ -343,6 +343,10 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       }
       const auto position = static_cast<int>(a);
       contact.held.push_back(position);
+      if (moves_plane(line, position, body.places, body.fixed, body.loads))
+      {
+         contact.in_moved_plane.push_back(position);
+      }
       for (std::size_t k = 0; k < body.loads.size(); ++k)
       {
          const BodyLoad &load = body.loads[k];

@@ -132,6 +132,22 @@ void meet_supports(ContactLine &line, const CondensedBody &body)
          moved(i, c) = body.moves(found->second, c);
       }
    }
+   // A node that is an end of the body's line, and there none of symmetry, is none here.
+   for (const LineChain &chain : body.line.chains)
+   {
+      for (const int end : {0, 1})
+      {
+         const Index last = end ? chain.first + chain.nodes - 1 : chain.first;
+         if (chain.loop || chain.ends[end] == LineEnd::symmetry) { continue; }
+         for (Index i = 0; i < line.size(); ++i)
+         {
+            if (line.nodes[i].dofs == body.line.nodes[last].dofs)
+            {
+               moved.row(i) = held.row(i);
+            }
+         }
+      }
+   }
    meet_supports(line, held, moved);
 }
 

@@ -247,6 +247,15 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
       return positions;
    };
    contact.held = known_by_owner([](int) { return true; });
+   const DofPlaces places = places_of(body);
+   const std::vector<int> fixed(essential.begin(), essential.end());
+   for (const int position : contact.held)
+   {
+      if (body.ranks().any(moves_plane(line, position, places, fixed, body.patterns())))
+      {
+         contact.in_moved_plane.push_back(position);
+      }
+   }
    const std::vector<BodyLoad> &loads = body.patterns();
    for (std::size_t k = 0; k < loads.size(); ++k)
    {

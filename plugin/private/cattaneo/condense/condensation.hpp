@@ -41,6 +41,9 @@ struct ContactDofs
    std::vector<int> held; ///< positions in `all`, increasing
    /// What loads move them by, `all` × loads; empty where all that is held is at rest.
    Eigen::MatrixXd moved = {};
+   /// Those of `held` in whose plane, across their component, a load moves anything: it is no
+   /// plane of symmetry, though the node itself may be at rest.
+   std::vector<int> in_moved_plane = {};
 
    /// One of them is moved. InputError that names the node for a body of torsion.
    void move(int position, Eigen::Index load, double by, const ContactLine &line,
@@ -52,6 +55,11 @@ struct ContactDofs
 /// The dofs of a line whose body has so many dofs. InputError if the line is not sound
 /// (ContactLine::validate), is of another formulation, or its dofs are not from 0 to dofs - 1.
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
+
+/// Does a load move one of these dofs in the plane of a contact dof, across its component? The
+/// dof is the one at a position of those of a line.
+bool moves_plane(const ContactLine &line, int position, const DofPlaces &places,
+                 const std::vector<int> &fixed, const std::vector<BodyLoad> &loads);
 
 /// InputError that names the node at a position of the contact dofs: it moves as `how` says,
 /// and may not.

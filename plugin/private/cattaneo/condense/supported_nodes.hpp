@@ -22,7 +22,7 @@ using HeldComponents = Eigen::Array<bool, Eigen::Dynamic, 2>;
     chord. There the frame is turned onto the axes, as the mean with that of the mirror image
     is. LineChain::off_symmetry says by how much that curve, or a line that is straight, is off.
     About an axis a node that is held in r is on no plane of symmetry, and nowhere is a node
-   that a load moves (`moved`, of what is held).
+   in whose plane a load moves anything (`moved`, of what is held).
 
     InputError if one component of a node is held and the line meets it at neither 0 nor 90
     degrees, to LineChain::smooth_turn, unless it curves into a plane of symmetry there (the
