@@ -128,14 +128,15 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
    const Eigen::Index n = programme.nodes();
    const SlippedForces at = slipped_forces(problem, programme.loads, theta, slip, rounding);
    const Eigen::MatrixXd skew = programme.skew.cwiseAbs();
+   const double side = rounding == Rounding::in_favour ? -1 : 1;
    Eigen::MatrixXd excess = tangential_lengths(programme.skewed(at.q, at.p), n) +
-                            tangential_lengths(at.q_error, n) -
-                            programme.bound(theta, at.p - at.p_error);
-   if (skew.size()) { excess += skew.cwiseProduct(at.p_error); }
-   if (rounding == Rounding::against && programme.strength0.size())
+                            side * tangential_lengths(at.q_error, n) -
+                            programme.bound(theta, at.p - side * at.p_error);
+   if (skew.size()) { excess += side * skew.cwiseProduct(at.p_error); }
+   if (rounding != Rounding::ignored && programme.strength0.size())
    {
       excess +=
-         4 * std::numeric_limits<double>::epsilon() *
+         side * 4 * std::numeric_limits<double>::epsilon() *
          (programme.strength0.cwiseAbs() + std::abs(theta) * programme.strength1.cwiseAbs());
    }
    return (excess.array().colwise() / programme.force_scale.array()).maxCoeff();
@@ -286,17 +287,16 @@ double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &
          if (round == max_rounds || !balance(programme, mechanism)) { return false; }
       }
    };
-   // At the surface of its cones a mechanism has no room for its repair. Interior points come
-   // nearer to the surface than their equations are in balance. Such a mechanism is first moved
-   // inside by a share of its limits, which costs about that share of the works.
+   // At the surface of its cones a mechanism has no room for its repair, and interior points
+   // come nearer to the surface than their equations are in balance. It is first moved inside
+   // by a share of its limits, which costs about that share of the works.
    const ConeMechanism given = mechanism;
-   double inward = 0;
-   while (!repaired())
+   double inward = 1e-10;
+   for (limit *= 1 + inward; !repaired(); limit *= 1 + inward)
    {
-      inward = std::max(1e-10, 10 * inward);
+      inward *= 10;
       if (inward > 2e-5) { return none; }
       mechanism = given;
-      limit *= 1 + inward;
    }
 
    const StuckForces &loads = programme.loads;

@@ -288,8 +288,8 @@ std::optional<LimitReport> LoadLimit::try_ray()
    // It does so to round-off: up to which load factor?
    const auto holds = [&](double factor)
    {
-      return worst_violation(programme_, reduced_, factor, first_slip_ + factor * ray.slip) <=
-             round_off;
+      return worst_violation(programme_, reduced_, factor, first_slip_ + factor * ray.slip,
+                             Rounding::in_favour) <= round_off;
    };
    double factor = 1e12 * sliding_;
    while (factor > 1e3 * sliding_ && !holds(factor)) { factor /= 10; }

@@ -114,7 +114,8 @@ ConeSolution solve_by_interior_points(const ConeProgramme &programme,
 enum class Rounding
 {
    ignored,
-   against ///< at its largest and to the worse side: what is admissible all the same is proven
+   against, ///< at its largest and to the worse side: what is admissible all the same is proven
+   in_favour ///< to the better side: what violates all the same does so by more than round-off
 };
 
 /// Forces of the stuck contact with a slip, in the columns of the loads.
@@ -144,11 +145,11 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
 
     so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
     is first made to satisfy both conditions to round-off, by the smallest changes in the norm
-    of the cones' barrier. If it is too near to the surface of its cones for that, it is moved
-    inside by a small share of its limits before. The rest of the first condition is multiplied
-    by @a slip_size, a bound of the slips, and added, as is the round-off of the works. Infinite
-   if W1 ≥ 0 or if the mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1.
- */
+    of the cones' barrier. Before, it is moved inside of its cones by a share of its limits,
+    1e-10 or, if that leaves too little room for the changes, up to 1e-5. The rest of the first
+    condition is multiplied by @a slip_size, a bound of the slips, and added, as is the
+    round-off of the works. Infinite if W1 ≥ 0 or if the mechanism cannot be repaired. The
+    mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
                           ConeMechanism &mechanism, double slip_size);
 
