@@ -401,8 +401,13 @@ MatrixXd free_motions(const ReducedProblem &problem, const std::vector<NodeState
 bool may_slide(const Increment &at)
 {
    const ReducedProblem &problem = at.system.problem;
-   return problem.rigid_motions.cols() > 0 && at.report.round_off > may_hide_sliding &&
-          free_motions(problem, at.status).cols() > 0;
+   if (problem.rigid_motions.cols() == 0 || at.report.round_off <= may_hide_sliding)
+   {
+      return false;
+   }
+   const std::vector<NodeState> &before = at.start.status;
+   const bool touched = std::any_of(before.begin(), before.end(), closed);
+   return !touched || free_motions(problem, at.status).cols() > 0;
 }
 
 namespace

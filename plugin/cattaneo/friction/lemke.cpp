@@ -104,14 +104,14 @@ Search lemke_from_afar(Increment &at)
    Starts starts(at);
    for (int k = 0; k < most && starts.operations() < operations; ++k)
    {
-      // 1. Displacements. A free body that hangs on one node alone has gone as far as a lever
-      // is short.
-      const double size = std::pow(10, -2 + 8.0 * k / most);
+      // 1. Displacements.
+      const double size = std::pow(10, -2 + 4.0 * k / most);
       VectorXd u = at.start.displacements();
       for (Index row = 0; row < u.size(); ++row) { u[row] += size * far[row] * some(); }
       at.move_to(u, at.start.status);
       // 2. The states in which the natural map takes them; every other time any states, as
-      // there are solutions to which the first kind of departure hardly ever leads.
+      // there are solutions to which the first kind of departure hardly ever leads: a free body
+      // that hangs on one node alone goes as far as its lever is short.
       std::vector<NodeState> states(s.n);
       for (Index i = 0; i < s.n; ++i)
       {

@@ -57,7 +57,8 @@ bool moves_away(Increment &at);
 
 /// Of an answer that was found from afar: may it be a free body that slides away? Round-off of
 /// so large displacements hides what drives such a body. That cannot be where the nodes that
-/// touch or stick hold all bodies.
+/// touch or stick hold all bodies. One that touched nothing before is not believed either: a
+/// march moves it to where it touches first, and knows its forces better then.
 bool may_slide(const Increment &at);
 
 /// Is it the end of the increment where it stands? A body that slips wherever it touches could
