@@ -412,7 +412,11 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (frame) { last_frame = reached.time; }
       if (shown) { zones_in_time.add(problem, reached); }
       last_increments.push_back(record);
-      if (last_increments.size() > most_drawn) { last_increments.pop_front(); }
+      // With every event the results list them all.
+      if (last_increments.size() > most_drawn && !settings.every_event)
+      {
+         last_increments.pop_front();
+      }
       if (history) { history->add(reached, record); }
       if (nodes && frame) { nodes->add(reached); }
       if (saver) { saver->add(reached, record); }

@@ -164,6 +164,15 @@ void report_exact_path(Study &study, const ReducedProblem &problem,
                         {"from", name(change.from)},
                         {"to", name(change.to)}});
    }
+   // How each row of the march was found, and the node at whose change of state it ends.
+   ordered_json &steps = study.results["steps"] = ordered_json::array();
+   for (const IncrementRecord &record : report.increments)
+   {
+      steps.push_back({{"time", started + record.time},
+                       {"loads", named(problem, record.multipliers)},
+                       {"found_by", record.found_by},
+                       {"event", record.event}});
+   }
 }
 
 namespace

@@ -87,8 +87,8 @@ private:
 };
 
 /// Of an exact march: the number of its changes of state, printed, and with
-/// MarchSettings::every_event their list, in the results; and whether increments were taken
-/// instead. Nothing for other marches.
+/// MarchSettings::every_event their list and that of the rows, in the results; and whether
+/// increments were taken instead. Nothing for other marches.
 void report_exact_path(Study &study, const Run &run);
 /// @param started time of the history at which the march began
 void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,

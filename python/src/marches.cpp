@@ -604,6 +604,21 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro("friction_work", number_of(&IncrementRecord::friction_work),
                    "-½(q₀ + q₁)·Δv of each increment, which balances the energy")
       .def_prop_ro("external_work", number_of(&IncrementRecord::external_work))
+      .def_prop_ro(
+         "found_by",
+         [](const Self &self)
+         {
+            std::vector<std::string> all;
+            for (const IncrementRecord &each : self.report.increments)
+            {
+               all.emplace_back(each.found_by);
+            }
+            return all;
+         },
+         "the method that found each increment: 'event path', 'active set', 'Lemke', …")
+      .def_prop_ro("event", number_of(&IncrementRecord::event),
+                   "with every_event: node that comes to the boundary of its state where the "
+                   "increment ends, counted from 0; -1: there is none")
       .def_prop_ro("cycles",
                    [](const Self &self)
                    {

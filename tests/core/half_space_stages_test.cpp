@@ -73,6 +73,14 @@ TEST(HalfSpaceStages, OneRectangleOfAThousand)
    EXPECT_EQ(number_closed(state), 1);
    EXPECT_NEAR(state.p.sum(), 1.1e-5, 1e-12);
    EXPECT_LE(report.counters.dense_factorisations, 20);
+   // A solver of all rectangles comes to it too, also with kernels whose sums of thousands of
+   // products leave as much as the tolerance (`./test --kernels`).
+   ContactState whole = ContactState::virgin(problem);
+   FrictionSolver solver(problem);
+   ASSERT_EQ(solver.solve(whole, state.multipliers).status, FrictionStatus::converged);
+   EXPECT_EQ(whole.status, state.status);
+   EXPECT_NEAR(whole.p.sum(), 1.1e-5, 1e-12);
+   EXPECT_LE(solver.counters().dense_factorisations, 20);
 }
 
 /// A rigid punch of 545 squares under shear around a circle: proven bounds within 1e-4.

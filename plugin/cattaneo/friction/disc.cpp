@@ -17,6 +17,7 @@ void DiscEquations::begin()
 {
    origin_ = {};
    factored_.clear();
+   refines_ = false;
 }
 
 /// The open nodes, where all forces are zero, leave a stiffness of the closed ones.
@@ -338,8 +339,9 @@ bool DiscEquations::solve(Increment &at)
          open_factor_.solve_other_half(lift);
          at.u(open_) -= lift;
       }
-      // 6. Once more from there where the round-off of the origin is a large part of it.
-      if (again || !cancels(s.K.diagonal(), from.u, at.u)) { break; }
+      // 6. Once more from there if that was asked for, and where the round-off of the origin is
+      // a large part of it.
+      if (again || !(refines_ || cancels(s.K.diagonal(), from.u, at.u))) { break; }
    }
    at.F = at.f + s.product->times(at.u);
    return true;
@@ -384,22 +386,39 @@ bool newton_in_the_disc(Increment &at)
 {
    at.system.disc_equations.begin();
    take_natural_states(at);
-   double best = std::numeric_limits<double>::infinity();
+   Increment::Place best;
+   double least = std::numeric_limits<double>::infinity(), before = least;
    int patience = 8;
    for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
    {
-      if (!solve_for_states(at)) { return false; }
+      // 1. The linear equations of the present states and directions.
+      if (!solve_for_states(at)) { break; }
       const bool small = at.residuals();
-      if (take_natural_states(at) == 0 && small && at.ends_here()) { return true; }
       const double size = std::max(at.report.residual_normal, at.report.residual_tangential);
-      if (size < 0.5 * best)
+      if (size < least)
       {
-         best = size;
-         patience = 8;
+         least = size;
+         best = {at.u, at.status};
       }
-      else { --patience; }
+      // 2. Their solution is the end if it asks for the same states.
+      const bool same = take_natural_states(at) == 0;
+      if (same && small && at.ends_here()) { return true; }
+      // 3. Steps that bring the residual down no more are given up after a while. The same
+      // states have the same solution, which can only be made better.
+      if (size < 0.5 * before)
+      {
+         before = size;
+         patience = 8;
+         continue;
+      }
+      --patience;
+      if (same) { at.system.disc_equations.refine(); }
    }
-   return false;
+   // 4. Where round-off is as large as the tolerance it changes states at every step. The best
+   // place of all is judged by what round-off allows.
+   if (best.status.empty()) { return false; }
+   at.move_to(best.u, best.status);
+   return at.ends_here();
 }
 
 } // namespace cattaneo

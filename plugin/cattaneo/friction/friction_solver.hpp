@@ -68,9 +68,9 @@ struct IncrementReport
    std::string message; ///< empty if converged; docs/increments.md says where each comes from
    /// If a solution was found: the largest violation by it of the equations as given and of the
    /// laws, over the largest force so far, as it is found in double precision. The true one is
-   /// larger by the round-off at most. If none was found no state is returned, and these belong
-   /// to a place where the search has been: with the message that names them, to where it
-   /// ended, as a measure of the way that was left (the natural map).
+   /// larger by the round-off at most. If none was found no state is returned. These are then a
+   /// measure of the way that was left (the natural map), where the message names them: from
+   /// the place where the sweeps before all other methods ended. Else they tell nothing.
    double residual_normal = 0;     ///< of normal displacements and forces
    double residual_tangential = 0; ///< of slip and friction forces
    double round_off = 0;           ///< estimate of what arithmetic can reach, relative

@@ -167,9 +167,9 @@ struct MarchReport
    std::vector<StateChange> changes;
    int fallbacks = 0;           ///< increments made where the exact path did not go on
    std::string fallback_reason; ///< of the first of them, a sentence of docs/increments.md
-   int stalled = 0;             ///< increments that the solver did not finish, and were halved
-   int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
-   int steady_period = 0;       ///< 1 or 2
+   int stalled = 0;      ///< increments that were halved as none was found; probes do not count
+   int steady_cycle = 0; ///< first cycle of the steady state; 0: not reached
+   int steady_period = 0; ///< 1 or 2
    /// The error of the loss by friction, with MarchSettings::loss_error.
    LossError loss_error;
    /// Energy balance of the march: external work - change of elastic energy - dissipation -

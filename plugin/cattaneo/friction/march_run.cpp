@@ -336,10 +336,13 @@ bool MarchRun::equilibria_end()
    if (beyond >= piece_.end()) { return false; }
    const MarchStep trial = attempt(beyond);
    if (trial.solved()) { return false; }
-   // A stall is no proof: so small a load can be hidden in round-off. Where the path ends and a
-   // larger load stalls as well, those between are no other.
-   if (trial.stalled() &&
-       !(path_->ended() && attempt(piece_.end_of_step(state_.time)).stalled()))
+   // That none was found is no proof: so small a load can be hidden in round-off, and above
+   // critical friction a search may miss one. Where the path ends and none is found with a
+   // larger load either, those between are no other.
+   const bool proven =
+      trial.increment.status == FrictionStatus::gross_sliding ||
+      find_mechanism(problem_, problem_.clamped_forces(piece_.multipliers(beyond))).exists;
+   if (!proven && !(path_->ended() && !attempt(piece_.end_of_step(state_.time)).solved()))
    {
       return false;
    }

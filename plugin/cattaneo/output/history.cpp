@@ -36,7 +36,7 @@ std::string history_header(const ReducedProblem &problem)
                              : ",stick,separation,forward_slip,backward_slip") +
           ",dissipation,total_dissipation,external_work,residual_normal,residual_tangential,"
           "round_off" +
-          conjugates;
+          conjugates + ",found_by,event";
 }
 
 Eigen::Index count_patterns(const ReducedProblem &problem)
@@ -61,7 +61,7 @@ std::string history_row(const IncrementRecord &record, double lost, Eigen::Index
        << record.residual_normal << ',' << record.residual_tangential << ','
        << record.round_off;
    for (double conjugate : record.conjugates) { out << ',' << conjugate; }
-   out << '\n';
+   out << ',' << csv_field(record.found_by) << ',' << record.event << '\n';
    return out.str();
 }
 

@@ -16,7 +16,7 @@ namespace cattaneo
    can reach of them), and the conjugate of each multiplier, see conjugates(): column
    "displacement NAME" of a force, "reaction NAME" of a prescribed displacement; "contact
    displacement NAME" and "contact reaction NAME" if only the contact's part of it is known
-    (ReducedProblem::knows_loads).
+    (ReducedProblem::knows_loads). At last IncrementRecord::found_by and IncrementRecord::event.
 
     add() is made to be a MarchObserver. Numbers are written so that they are read back to the
     last bit. Nothing is kept in memory. */

@@ -30,6 +30,8 @@ public:
    /// Moves to the solution of the linear equations of the present states and directions. False
    /// if they are singular.
    bool solve(Increment &at);
+   /// From now on in this increment each solution is made better by a second one from there.
+   void refine() { refines_ = true; }
 
 private:
    /// Places and forces from which slip is counted, with the open nodes' share of the forces.
@@ -73,6 +75,7 @@ private:
    Origin origin_;               // empty: none yet for these open nodes
    DenseLU factor_;              // of the equations of an earlier step
    std::vector<Index> factored_; // their nodes; empty: no factor
+   bool refines_ = false;
 };
 
 /// Semismooth Newton steps from the present states: done when the laws hold, given up when the
