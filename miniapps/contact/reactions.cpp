@@ -90,7 +90,9 @@ public:
          largest = std::max(largest, one.sum.largest());
       }
       for (const Vector2d &place : held_.place) { reach = std::max(reach, place.norm()); }
-      const double turns = torque_largest_ > 0 ? std::abs(torque_) / torque_largest_ : none;
+      // Torques that are round-off of forces at their levers are none.
+      const double turns =
+         torque_largest_ > 1e-12 * largest * reach ? std::abs(torque_) / torque_largest_ : none;
       if (largest == 0) { return turns; }
       // NaN, where nothing turns, is no larger than a number.
       if (!plane_) { return std::fmax(std::abs(all.force[1]) / largest, turns); }
@@ -220,7 +222,9 @@ private:
       }
       const ContactLine &line = reduction_.torsion[body_].line;
       for (Index i = 0; i < line.size(); ++i) { rest[line.nodes[i].dofs[0]] -= contact[i]; }
+      // Those of two interfaces may balance each other.
       add(contact.sum());
+      torque_largest_ = std::max(torque_largest_, contact.lpNorm<1>());
       for (const Holding &one : around.holdings)
       {
          double torque = 0, size = 0;
