@@ -605,6 +605,28 @@ TEST(HalfSpaceContact, WorkOfFrictionBalancesTheEnergy)
    EXPECT_GT(friction, 0.5 * lost);
 }
 
+/// A sphere under more shear than friction holds slides where the shear is f P, in any
+/// direction, also of a load that turns. Along one line that is found without a failed
+/// increment.
+TEST(HalfSpaceContact, SlidesAtTheLimitOfFriction)
+{
+   ReducedProblem problem = kalkers_spence(1.3);
+   const double P = 2.37e-3, limit = 0.2986 * P;
+   const auto slides = [&](const NamedLoads &last)
+   {
+      ContactState state = ContactState::virgin(problem);
+      const MarchReport report = marched(
+         problem, {{}, {{"P", P}}, {{"P", P}, {"Q1", 0.5 * limit}, {"Q2", 0}}, last}, state, 2);
+      EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+      const VectorXd loads = report.event_multipliers;
+      EXPECT_NEAR(std::hypot(loads[problem.pattern("Q1")], loads[problem.pattern("Q2")]), limit,
+                  1e-7 * limit);
+      return report.counters.rejected_increments;
+   };
+   EXPECT_EQ(slides({{"P", P}, {"Q1", 1.3 * limit}, {"Q2", 0}}), 0);
+   slides({{"P", P}, {"Q1", 0.5 * limit}, {"Q2", 1.3 * limit}});
+}
+
 TEST(HalfSpaceContact, SaysWhatItCannotTake)
 {
    const HalfSpace good = contact_of({1, 0.3}, {}, 0.1, cells(3, 0.1, 1));

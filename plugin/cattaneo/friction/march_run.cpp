@@ -145,6 +145,44 @@ bool MarchRun::exact_in_one() const
           (state_.q.isZero(0) || state_.q.cwiseAbs().maxCoeff() <= 1e-8 * normal);
 }
 
+/// Loads at `failed` that no contact forces balance drive a motion, and their work along it is
+/// linear in time: there is no equilibrium either from where it exceeds what contact forces can
+/// do. The earliest such time that is known, or `failed`.
+double MarchRun::first_unbalanced(double failed) const
+{
+   const Eigen::Index n = problem_.nodes(), slips = problem_.slips();
+   const VectorXd before = problem_.clamped_forces(piece_.multipliers(state_.time));
+   // Each motion that is found cuts nearer to the end. Bounds that bend with the pressure may
+   // hold more than their lines. With one tangent the path finds the end.
+   for (int k = 0; k < 20 && !friction_bends_ && problem_.components() == 2; ++k)
+   {
+      const VectorXd forces = problem_.clamped_forces(piece_.multipliers(failed));
+      const Mechanism mechanism = find_mechanism(problem_, forces);
+      if (!mechanism.exists) { break; }
+      // 1. By round-off the motion leaves contact forces some work: that of one unit of
+      // pressure, times the pressure there is.
+      const VectorXd &motion = mechanism.motion;
+      double most = 0;
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         double along = 0;
+         for (Eigen::Index row = i; row < slips; row += n)
+         {
+            along = std::hypot(along, motion[row]);
+         }
+         most = std::max(most, motion[slips + i] + problem_.friction[i] * along);
+      }
+      const double contact = 10 * most * forces.tail(n).lpNorm<1>();
+      // 2. Where the work of the loads is that.
+      const double drives = motion.dot(forces) - contact, held = motion.dot(before) - contact;
+      if (!(held < 0 && drives > 0)) { break; }
+      const double cut = failed - (failed - state_.time) * drives / (drives - held);
+      if (!(cut < failed && cut > state_.time)) { break; }
+      failed = cut;
+   }
+   return failed;
+}
+
 /// No equilibrium at `failed`: approaches the last load at which there is one.
 void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
 {
@@ -158,14 +196,19 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
       if (!trial.solved()) { failure = trial.increment; }
    }
    double reached = state_.time; // an equilibrium
+   // Where the end is proven, a hundredth of the way is left each time, until the solver fails.
+   const double unbalanced = first_unbalanced(failed);
+   double left = unbalanced < failed ? 0.01 : 0.5;
+   failed = unbalanced;
    while (failed - reached > resolution)
    {
-      const double middle = 0.5 * (reached + failed);
+      const double middle = failed - left * (failed - reached);
       if (middle <= reached || middle >= failed) { break; }
       MarchStep trial = attempt(middle);
       if (!trial.solved())
       {
          failed = middle;
+         left = 0.5;
          ++record_.report.counters.rejected_increments;
          continue;
       }

@@ -69,6 +69,7 @@ private:
    bool equilibria_end();
    double first_closing(double target);
    double first_known(double from, double target);
+   double first_unbalanced(double failed) const;
    void bisect_last_equilibrium(double failed, IncrementReport failure);
 
    bool has_path() const;
