@@ -1,11 +1,13 @@
-"""The examples, and every Python example of README.md, docs/python.md and docs/half_space.md, as a user runs them."""
+"""The examples and the study `sphere`, and every Python example of README.md, docs/python.md and docs/half_space.md, as a user runs them."""
 
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from conftest import ROOT
 
@@ -51,16 +53,27 @@ def test_calculix_loop(tmp_path):
 
 
 def test_sphere(tmp_path):
-    """Hertz, Cattaneo and Mindlin to half a per cent, torsion of few squares to five, and areas within their ±."""
+    """The study by few squares and by triangles: closed forms of displacements to one per cent, of radii within their ±."""
     pytest.importorskip("matplotlib")
-    figure = tmp_path / "sphere.png"
-    out = run(EXAMPLES / "sphere.py", 11, figure)
-    for line in out.splitlines():
-        if line.startswith(("Hertz", "Cattaneo", "torsion")):
-            computed, exact = (float(word) for word in line.split()[-4:-2])
-            allowed = re.search(r"± ([\d.]+)", line)
-            assert computed == pytest.approx(exact, abs=float(allowed[1]) if allowed else (0.05 if "torsion" in line else 5e-3) * exact), line
-    assert "once around a circle" in out and "Spence" in out and figure.stat().st_size > 10000
+    study = ROOT / "python" / "studies" / "sphere.py"
+    figure, file = tmp_path / "sphere.png", tmp_path / "sphere.json"
+    run(study, "-cells", 15, "-shear", 0.9, "-poisson", 0, "-friction", 0.2986, "-plot", figure, "--json", file, "-vtu", tmp_path / "state")
+    assert figure.stat().st_size > 10000 and (tmp_path / "state_twisted.vtu").stat().st_size > 10000
+    result = json.loads(file.read_text())
+    assert result["options"]["cells"] == 15 and len(result["loop"]["shift"]) == len(result["loop"]["force"])
+    triangles = tmp_path / "triangles.json"
+    run(study, "-cells", 15, "-shear", 0.9, "-poisson", 0, "-triangles", "-json", triangles, "-stages", 2, "-increments", 1)
+    for values in (result["values"], json.loads(triangles.read_text())["values"]):
+        compared = {name: row for name, row in values.items() if row["closed_form"] is not None}
+        assert len(compared) == 8
+        for name, row in compared.items():
+            allowed = row["error_estimate"] or (0.03 if "loss" in name else 0.01) * row["closed_form"]
+            assert row["computed"] == pytest.approx(row["closed_form"], abs=allowed), name
+    # Kalker's CONTACT has 61 of 241 squares in stick in stage 18 of the same contact, and any stage has the same ratio.
+    ratios = [row for name, row in result["values"].items() if name.startswith("Spence")]
+    assert len(ratios) == 6 and all(abs(row["computed"] - np.sqrt(61 / 241)) < row["error_estimate"] for row in ratios)
+    failed = subprocess.run([sys.executable, study, "-shear", "2"], capture_output=True, text=True)
+    assert failed.returncode != 0 and "2 must be from 0 to 1" in failed.stderr
 
 
 def test_monte_carlo():
