@@ -17,6 +17,9 @@ namespace
 /// Share of a node's typical force that rounding can change in a sum over all nodes.
 constexpr double round_off = 1e-12;
 
+constexpr const char *never_held = "no slip keeps the contact stuck and closed under the "
+                                   "constant loads alone (proven by the mechanism)";
+
 /// The state furthest from all cones.
 struct Clearance
 {
@@ -204,9 +207,7 @@ std::optional<LimitReport> LoadLimit::hold_constant_loads()
       {
          report_.mechanism =
             constant.solution.mechanism.at_vertices(programme_, loads_.vertices());
-         return finish(LimitStatus::no_solution,
-                       "no slip keeps the contact stuck and closed under the constant loads "
-                       "alone (proven by the mechanism)");
+         return finish(LimitStatus::no_solution, never_held);
       }
       if (constant.slip.size()) { take(constant.slip, constant.solution.r); }
    }
@@ -348,6 +349,12 @@ LimitReport LoadLimit::find()
    if (!std::isfinite(report_.lower))
    {
       report_.lower = 0;
+      // A limit below zero: not even the constant loads are held.
+      if (report_.upper < 0)
+      {
+         report_.upper = infinity;
+         return finish(LimitStatus::no_solution, never_held);
+      }
       return finish(LimitStatus::failed, "no admissible slip was found" + because(message));
    }
    return finish(LimitStatus::bracketed, not_closed(message));
