@@ -250,53 +250,37 @@ bool balance(const ConeProgramme &programme, ConeMechanism &mechanism)
    return true;
 }
 
-} // namespace
+constexpr double none = std::numeric_limits<double>::infinity();
 
-double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
-                          ConeMechanism &mechanism, double slip_size)
+/// The bound of weak_duality_bound() by a mechanism that is repaired as it is. NaN if it cannot
+/// be repaired.
+double bound_once_repaired(const ConeProgramme &programme, const ReducedProblem &problem,
+                           ConeMechanism &mechanism, double slip_size)
 {
-   constexpr double none = std::numeric_limits<double>::infinity();
    constexpr double round_off = 1e-14; // of a sum, over the sum of its sizes
    const Eigen::Index n = programme.nodes();
-   const Eigen::Index columns = programme.loads.vertices();
    Eigen::MatrixXd &slip = mechanism.slip;
    Eigen::MatrixXd &limit = mechanism.limit;
-   if (slip.cols() != columns || !slip.allFinite() || !limit.allFinite()) { return none; }
 
    Eigen::MatrixXd opening;
    Eigen::VectorXd imbalance;
-   // Balances the motions to round-off. False if 30 repairs do not suffice.
-   const auto repaired = [&]
+   double share = none; // of the largest imbalance in what is in balance
+   constexpr double tiny = std::numeric_limits<double>::min();
+   constexpr int max_rounds = 30;
+   for (int round = 0;; ++round)
    {
-      double share = none; // of the largest imbalance in what is in balance
-      constexpr double tiny = std::numeric_limits<double>::min();
-      constexpr int max_rounds = 30;
-      for (int round = 0;; ++round)
-      {
-         limit = limit.cwiseMax(tangential_lengths(slip, n) * (1 + 1e-15));
-         opening = mechanism.opening(programme);
-         const Eigen::VectorXd slips = slip.rowwise().sum(), openings = opening.rowwise().sum();
-         imbalance = problem.A() * slips + problem.B().transpose() * openings;
-         const Eigen::VectorXd gross =
-            problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
-            problem.B().transpose().cwiseAbs() * opening.cwiseAbs().rowwise().sum();
-         // Until it is round-off: small, and no longer halved.
-         const double before = share;
-         share = (imbalance.array().abs() / (gross.array() + tiny)).maxCoeff();
-         if (share <= round_off || (share <= 1e-10 && share > 0.5 * before)) { return true; }
-         if (round == max_rounds || !balance(programme, mechanism)) { return false; }
-      }
-   };
-   // At the surface of its cones a mechanism has no room for its repair, and interior points
-   // come nearer to the surface than their equations are in balance. It is first moved inside
-   // by a share of its limits, which costs about that share of the works.
-   const ConeMechanism given = mechanism;
-   double inward = 1e-10;
-   for (limit *= 1 + inward; !repaired(); limit *= 1 + inward)
-   {
-      inward *= 10;
-      if (inward > 2e-5) { return none; }
-      mechanism = given;
+      limit = limit.cwiseMax(tangential_lengths(slip, n) * (1 + 1e-15));
+      opening = mechanism.opening(programme);
+      const Eigen::VectorXd slips = slip.rowwise().sum(), openings = opening.rowwise().sum();
+      imbalance = problem.A() * slips + problem.B().transpose() * openings;
+      const Eigen::VectorXd gross =
+         problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
+         problem.B().transpose().cwiseAbs() * opening.cwiseAbs().rowwise().sum();
+      // Until it is round-off: small, and no longer halved.
+      const double before = share;
+      share = (imbalance.array().abs() / (gross.array() + tiny)).maxCoeff();
+      if (share <= round_off || (share <= 1e-10 && share > 0.5 * before)) { break; }
+      if (round == max_rounds || !balance(programme, mechanism)) { return std::nan(""); }
    }
 
    const StuckForces &loads = programme.loads;
@@ -305,7 +289,7 @@ double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &
    {
       const Eigen::MatrixXd by_slip = slip.cwiseProduct(q),
                             by_opening = opening.cwiseProduct(p);
-      Eigen::MatrixXd by_limit = Eigen::MatrixXd::Zero(n, columns);
+      Eigen::MatrixXd by_limit = Eigen::MatrixXd::Zero(n, limit.cols());
       if (strength.size()) { by_limit = limit.cwiseProduct(strength); }
       gross =
          by_slip.cwiseAbs().sum() + by_opening.cwiseAbs().sum() + by_limit.cwiseAbs().sum();
@@ -319,6 +303,37 @@ double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &
    slip /= -w1;
    limit /= -w1;
    return (w0 + round_off * gross0 + imbalance.lpNorm<1>() * slip_size) / falls;
+}
+
+} // namespace
+
+double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
+                          ConeMechanism &mechanism, double slip_size)
+{
+   if (mechanism.slip.cols() != programme.loads.vertices() || !mechanism.slip.allFinite() ||
+       !mechanism.limit.allFinite())
+   {
+      return none;
+   }
+   // At the surface of its cones a mechanism has no room for its repair, and interior points
+   // come nearer to the surface than their equations are in balance. A mechanism is repaired as
+   // it is given and from inside of its cones by a share of its limits, which costs about that
+   // share of the works. The share is as small as the repair allows.
+   const ConeMechanism given = mechanism;
+   double best = bound_once_repaired(programme, problem, mechanism, slip_size);
+   for (double inward = 1e-10; inward < 2e-5; inward *= 10)
+   {
+      ConeMechanism moved{given.slip, given.limit * (1 + inward)};
+      const double bound = bound_once_repaired(programme, problem, moved, slip_size);
+      if (std::isnan(bound)) { continue; }
+      if (!(best <= bound))
+      {
+         best = bound;
+         mechanism = moved;
+      }
+      break;
+   }
+   return std::isnan(best) ? none : best;
 }
 
 } // namespace cattaneo

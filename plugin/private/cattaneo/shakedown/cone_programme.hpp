@@ -145,11 +145,11 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
 
     so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
     is first made to satisfy both conditions to round-off, by the smallest changes in the norm
-    of the cones' barrier. Before, it is moved inside of its cones by a share of its limits,
-    1e-10 or, if that leaves too little room for the changes, up to 1e-5. The rest of the first
-    condition is multiplied by @a slip_size, a bound of the slips, and added, as is the
-    round-off of the works. Infinite if W1 ≥ 0 or if the mechanism cannot be repaired. The
-    mechanism comes back scaled to W1 = -1. */
+    of the cones' barrier. It is repaired as it is given, and once moved inside of its cones by
+    the least share of its limits (1e-10 to 1e-5) that leaves room for the changes; the lower
+    bound counts. The rest of the first condition is multiplied by @a slip_size, a bound of the
+    slips, and added, as is the round-off of the works. Infinite if W1 ≥ 0 or if the mechanism
+    cannot be repaired. The mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
                           ConeMechanism &mechanism, double slip_size);
 
