@@ -14,6 +14,36 @@ using cattaneo::InputError;
 using cattaneo::require;
 using json = nlohmann::ordered_json;
 
+namespace
+{
+
+/// "line 3, column 12: unexpected '}', must be …" of the sentence of the library.
+std::string where_broken(std::string said)
+{
+   for (const char *begin : {"] ", "parse error at "})
+   {
+      const std::size_t at = said.find(begin);
+      if (at != std::string::npos) { said.erase(0, at + std::string(begin).size()); }
+   }
+   const std::size_t inner = said.find(": syntax error while parsing "),
+                     dash = said.find(" - ", std::min(inner, said.size()));
+   if (dash == std::string::npos) { return said; }
+   said.replace(inner, dash + 3 - inner, ": ");
+   const std::size_t expected = said.find("; expected ");
+   if (expected == std::string::npos) { return said; }
+   std::string must = said.substr(expected + std::string("; expected ").size());
+   said.erase(expected);
+   const std::size_t comma = said.find("unexpected '}'");
+   if (must == "string literal")
+   {
+      must = "a name in double quotes";
+      if (comma != std::string::npos) { must += ", or no comma before it"; }
+   }
+   return said + ", must be " + must;
+}
+
+} // namespace
+
 json read_case(const std::string &file, int version)
 {
    const std::string where = "case file '" + file + "'";
@@ -26,7 +56,7 @@ json read_case(const std::string &file, int version)
    }
    catch (const json::exception &error)
    {
-      throw InputError(where + " is not JSON: " + error.what());
+      throw InputError(where + " is not JSON: " + where_broken(error.what()));
    }
    require(keys.is_object(), where, " holds a JSON ", keys.type_name(), ", must be an object");
    const json said = keys.value("version", json());

@@ -429,7 +429,21 @@ void Options::parse()
    std::fflush(stdout);
    for (const Option &option : options_)
    {
-      option.validate();
+      try
+      {
+         option.validate();
+      }
+      catch (const InputError &error)
+      {
+         // A user of a case has written a key.
+         const std::string &name = option.names.name, as_option = "option --" + name;
+         const std::string said = error.what();
+         const bool typed =
+            std::any_of(given_.begin(), given_.end(),
+                        [&](const Given &given) { return given.option == &option; });
+         if (typed || !says(name) || said.rfind(as_option, 0) != 0) { throw; }
+         throw InputError("key '" + name + "'" + said.substr(as_option.size()));
+      }
       values_[option.names.name] = option.as_json();
    }
    check_files();
@@ -566,7 +580,9 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
       const bool nested =
          std::any_of(x.begin(), x.end(), [](const json &v) { return v.is_structured(); });
       require(condition, where, " is ",
-              x.is_object() || nested ? "a nested " + std::string(x.type_name()) : x.dump(),
+              x.is_object() ? std::string("an object")
+              : nested      ? std::string("a list with lists or objects in it")
+                            : x.dump(),
               ", must be ", allowed);
    };
    const auto is_whole = [](const json &v)

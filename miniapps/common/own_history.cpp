@@ -431,6 +431,13 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    report = problem.nodes() == 0 ? followed(problem, history_, state, settings, note)
             : bolts              ? bolts->march(history_, state, settings, note)
                                  : cattaneo::march(problem, history_, state, settings, note);
+   std::vector<std::string> tightened;
+   for (std::size_t b = 0; bolts && b < bolts->bolts().size(); ++b)
+   {
+      tightened.push_back(bolts->bolts()[b].load);
+   }
+   const std::string early = nothing_presses(problem, history_, report, state, tightened);
+   if (!early.empty()) { report.message += "; " + early; }
    check_energies({report.energy_imbalance, state.dissipation});
    report.increments.assign(last_increments.begin(), last_increments.end());
    // A march that had not been cut would have ended there.

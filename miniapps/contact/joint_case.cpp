@@ -34,7 +34,10 @@ public:
    {
       // Nothing nested is shown: it may be too deep to be written.
       throw InputError(called() + " is " +
-                       (value_.is_structured() ? value_.type_name() : value_.dump()) +
+                       (value_.empty() && value_.is_structured() ? std::string("empty")
+                        : value_.is_array()                      ? "a list"
+                        : value_.is_object()                     ? "an object"
+                                                                 : value_.dump()) +
                        ", must be " + allowed);
    }
    bool has(const std::string &name) const { return value_.contains(name); }
@@ -320,7 +323,8 @@ JointCase::Side side(const Key &key, const JointCase &joint)
    std::vector<std::string> names;
    for (const JointCase::Body &each : joint.bodies) { names.push_back(each.name); }
    require(made.body >= 0, key.called(), ": '", word, "': there is no body '",
-           word.substr(0, colon), "', must be one of ", listed(names));
+           word.substr(0, colon), "', must be one of ", listed(names),
+           colon == word.size() ? ", with a part of its boundary, as BODY:PART" : "");
    require(joint.bodies[made.body].half_plane == made.part.empty(), key.called(), ": '", word,
            "' must be ",
            made.part.empty() ? "a body and a part of its boundary, BODY:PART"
@@ -351,7 +355,10 @@ void add_obstacle(JointCase::Face &face, const Key &key)
       return;
    }
    const Key line = key["line"];
-   if (!line.value().is_array() || line.value().size() < 2) { line.refuse("a list of points"); }
+   if (!line.value().is_array() || line.value().size() < 2)
+   {
+      line.refuse("a list of two points or more");
+   }
    for (const Key &point : line.list())
    {
       const std::array<double, 2> at = point.pair();

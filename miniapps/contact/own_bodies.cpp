@@ -3,6 +3,7 @@
 #include "contact/own_half_plane.hpp"
 #include "contact/own_interfaces.hpp"
 #include "contact/own_part.hpp"
+#include "contact/own_sides.hpp"
 #include "contact/own_warnings.hpp"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ using namespace cattaneo;
 
 OwnBodies make_own_bodies(const JointCase &joint)
 {
+   require_own_meshes(joint);
    OwnBodies own;
    std::vector<OwnPart> parts;
    int half_planes = 0;
@@ -63,6 +65,8 @@ OwnBodies make_own_bodies(const JointCase &joint)
          of_body[side.body].push_back(lines[k][s]);
       }
    }
+   require_sides_free(joint, parts, lines);
+   const std::string units = other_units(joint, parts);
    std::vector<CondensedBody> condensed;
    for (std::size_t b = 0; b < parts.size(); ++b)
    {
@@ -83,11 +87,20 @@ OwnBodies make_own_bodies(const JointCase &joint)
          condensed.back().thicken(joint.thickness_of(static_cast<int>(b)));
       }
    }
-   if (half_planes > 0)
+   try
    {
-      stand_on_half_plane(own, std::move(condensed), interfaces_of(joint, lines), joint);
+      if (half_planes > 0)
+      {
+         stand_on_half_plane(own, std::move(condensed), interfaces_of(joint, lines), joint);
+      }
+      else { own.scene.reduction = united(joint, std::move(condensed), lines); }
    }
-   else { own.scene.reduction = united(joint, std::move(condensed), lines); }
+   catch (const InputError &error)
+   {
+      // What such bodies fail by says little.
+      throw InputError(units.empty() ? error.what() : units + " (" + error.what() + ")");
+   }
+   if (!units.empty()) { warn(units); }
    if (twists) { own.scene.reduction.add_torsion(condensed_twisting(joint, parts)); }
    complete(own, joint, lines);
    for (const OwnPart &part : parts) { own.held.push_back(part.held()); }

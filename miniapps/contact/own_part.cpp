@@ -2,6 +2,7 @@
 
 #include "contact/own_warnings.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
@@ -197,6 +198,24 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
                  [&] { add_loads(*elastic_, body_.source.called("load"), one, terms_); });
          }
       });
+}
+
+double OwnPart::size() const
+{
+   Eigen::AlignedBox2d box;
+   if (nodal_)
+   {
+      for (const auto &node : nodal_->places) { box.extend(node.second); }
+   }
+   if (elastic_ && !elastic_->ranks().distributed())
+   {
+      const mfem::DenseMatrix &places = elastic_->node_coordinates();
+      for (int node = 0; node < places.Width(); ++node)
+      {
+         box.extend(Eigen::Vector2d(places(0, node), places(1, node)));
+      }
+   }
+   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
 std::vector<int> OwnPart::fixed() const
@@ -456,6 +475,31 @@ std::vector<CondensedBody> condensed_twisting(const JointCase &joint,
    return made;
 }
 
+namespace
+{
+
+/// "'LOWER': FACE, BOTTOM; 'UPPER': TOP, …", some sets of each.
+std::string sets_of(const std::vector<NodalStiffness> &bodies)
+{
+   constexpr std::size_t most = 12;
+   std::vector<std::string> all;
+   for (const NodalStiffness &part : bodies)
+   {
+      std::vector<std::string> names;
+      for (const auto &set : part.sets) { names.push_back(set.first); }
+      if (names.size() > most)
+      {
+         names.resize(most);
+         names.emplace_back("…");
+      }
+      const std::string sets = names.empty() ? "no set" : listed(names);
+      all.push_back(bodies.size() == 1 ? sets : "'" + part.name + "': " + sets);
+   }
+   return listed(all, "; ");
+}
+
+} // namespace
+
 void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts)
 {
    std::map<std::string, std::vector<NodalStiffness>> files;
@@ -471,17 +515,37 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
               "', must be the same");
       if (files.count(body.matrix) == 0)
       {
-         files[body.matrix] = read_stiffness(body.matrix, body.deck).parts();
+         try
+         {
+            files[body.matrix] = read_stiffness(body.matrix, body.deck).parts();
+         }
+         catch (const InputError &error)
+         {
+            throw InputError("body " + body.name + ": " + error.what());
+         }
       }
    }
+   // The parts of each file go to their bodies. These have their names and sets alone.
+   std::map<std::string, std::vector<NodalStiffness>> shells;
    for (const auto &[file, bodies] : files)
    {
-      std::vector<std::string> names;
-      for (const NodalStiffness &part : bodies) { names.push_back(part.name); }
-      require(static_cast<int>(bodies.size()) == asked[file], "matrix '", file, "' has ",
-              bodies.size(), " bodies (", listed(names),
-              "), each must be a body of the case, of this matrix; there are ", asked[file]);
+      for (const NodalStiffness &part : bodies)
+      {
+         shells[file].emplace_back();
+         shells[file].back().name = part.name;
+         shells[file].back().sets = part.sets;
+      }
+      const std::size_t own_bodies = asked[file];
+      require(bodies.size() == own_bodies, "matrix '", file, "' has ",
+              bodies.size() == 1
+                 ? "one body"
+                 : std::to_string(bodies.size()) + " bodies that nothing connects",
+              ", the case has ", own_bodies, " with this matrix, must have ", bodies.size(),
+              ": each with a side of an interface that is a set of its own; ",
+              bodies.size() == 1 ? "it has " : "they have ", sets_of(shells[file]));
    }
+   std::map<std::string, std::string>
+      takers; // by file and name of a part: the body that has it
    for (std::size_t b = 0; b < parts.size(); ++b)
    {
       const std::string &file = joint.bodies[b].matrix;
@@ -493,15 +557,30 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
          for (const JointCase::Side &side : face.sides)
          {
             if (side.body != static_cast<int>(b) || found != left.end()) { continue; }
-            found = std::find_if(left.begin(), left.end(),
-                                 [&](const NodalStiffness &part)
-                                 { return part.has_set(side.part); });
-            require(found != left.end(), "matrix '", file, "': ", side.called,
-                    " names the set '", side.part, "', there is no other body that has it");
+            const auto has = [&](const NodalStiffness &part)
+            { return part.has_set(side.part); };
+            found = std::find_if(left.begin(), left.end(), has);
+            if (found != left.end()) { continue; }
+            const std::vector<NodalStiffness> &all = shells[file];
+            const auto taken = std::find_if(all.begin(), all.end(), has);
+            require(side.part.find('[') == std::string::npos, "matrix '", file,
+                    "': ", side.called, " is '", side.part,
+                    "': an interval cuts elements of a mesh, of a matrix it must be a set of "
+                    "nodes");
+            require(taken != all.end(), "matrix '", file, "': ", side.called,
+                    " names the set '", side.part,
+                    "', which the matrix's deck or file does "
+                    "not have, must be one of: ",
+                    sets_of(all));
+            require(false, "matrix '", file, "': ", side.called, " names the set '", side.part,
+                    "', which is of the part '", taken->name, "', and that is body ",
+                    takers[file + "\n" + taken->name], " already: body ", joint.bodies[b].name,
+                    " must be another part, with a set of its own: ", sets_of(all));
          }
       }
       require(found != left.end(), "matrix '", file, "': body ", joint.bodies[b].name,
               " is at no interface, must be at one");
+      takers[file + "\n" + found->name] = joint.bodies[b].name;
       own.known_elements = false;
       own.scene.dofs += static_cast<int>(found->dofs.size());
       own.materials.emplace_back(); // not known

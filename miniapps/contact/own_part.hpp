@@ -38,6 +38,11 @@ public:
    /// To the nodes of its sides of interfaces, in their order.
    cattaneo::CondensedBody condensed_twisting(const std::vector<JointCase::Side> &sides) const;
 
+   /// The diagonal of the box around it; 0: not known, on several ranks.
+   double size() const;
+   /// Dofs that supports and prescribed displacements hold, increasing.
+   std::vector<int> fixed() const;
+
    /// In a sentence.
    std::string called() const;
    template <class Action>
@@ -55,7 +60,6 @@ public:
 
 private:
    void make_of_mesh(OwnBodies &own, int b);
-   std::vector<int> fixed() const;
    /// Does what holds something; all that was free before is its.
    template <class Hold>
    void hold(const std::string &kind, const std::string &name, Hold hold);

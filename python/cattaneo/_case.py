@@ -136,7 +136,10 @@ def case(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, 
     folder that the environment variable CATTANEO_BIN names, beside this package, in the build that it is of, and
     where the command `cattaneo` is. InputError with the program's sentence for what is wrong in a case; an outcome
     other than 'converged' is an OutcomeWarning, what the program warns of a UserWarning."""
-    name = os.fspath(file)
+    try:
+        name = os.fspath(file)
+    except TypeError:
+        raise TypeError(f"file is a {type(file).__name__}, must be the name of a case file or a path") from None
     program = _program()
     with tempfile.TemporaryDirectory() as folder:
         at = pathlib.Path(folder)

@@ -10,6 +10,8 @@ def _array(values: Any, name: str, shape: tuple[int, ...], of: str) -> Any:
     """As floats, finite; -1 in a shape is any."""
     import numpy as np
 
+    if hasattr(values, "toarray"):  # SciPy's sparse ones
+        values = values.toarray()
     try:
         found = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
@@ -121,7 +123,7 @@ def from_compliance(
     K, G = _held((F + F.T) / 2, Z, slips)
 
     names = [*(forces or {}), *(name for name in displacements or {} if name not in (forces or {}))]
-    work = {name: _array(r, f"forces['{name}']", (Z.shape[1],), f"({Z.shape[1]},), one for each rigid motion")
+    work = {name: _array([r] if np.ndim(r) == 0 else r, f"forces['{name}']", (Z.shape[1],), f"({Z.shape[1]},), one for each rigid motion")
             for name, r in (forces or {}).items()}  # fmt: skip
     moved = {name: _array(u, f"displacements['{name}']", (m,), f"({m},), of all nodes {{v; w}}")
              for name, u in (displacements or {}).items()}  # fmt: skip

@@ -133,15 +133,30 @@ std::vector<int> node_numbers(const NodalStiffness &body)
 /// A set by its name, numbers of nodes, or a mask over NodalStiffness.nodes.
 NodalStiffness::Nodes nodes_in(const NodalStiffness &body, nb::handle nodes)
 {
-   if (nb::isinstance<nb::str>(nodes)) { return body.nodes_of(nb::cast<std::string>(nodes)); }
-   if (!is_mask(nodes)) { return indices(nodes, "nodes", 0, most_rows); }
+   const auto some = [](NodalStiffness::Nodes found, const char *why)
+   {
+      require(!found.empty(), "nodes", why, ", must name one node at least");
+      return found;
+   };
+   if (nb::isinstance<nb::str>(nodes))
+   {
+      return some(body.nodes_of(nb::cast<std::string>(nodes)), " is a set without nodes");
+   }
+   if (!is_mask(nodes)) { return some(indices(nodes, "nodes", 0, most_rows), " is empty"); }
    const std::vector<int> all = node_numbers(body);
    NodalStiffness::Nodes found;
    for (int k : indices(nodes, "nodes", 0, static_cast<long>(all.size()) - 1))
    {
       found.push_back(all[k]);
    }
-   return found;
+   return some(found, " is a mask without a true entry");
+}
+
+/// The name of a load, which must not be empty.
+const std::string &load_name(const std::string &load)
+{
+   require(!load.empty(), "load is '', a load must have a name");
+   return load;
 }
 
 /// 1 and 2 for x and y, or r and z.
@@ -414,7 +429,10 @@ void bind_stiffness(nb::module_ &m)
          {
             const NodalStiffness::Nodes at = nodes_in(self, nodes);
             finite(force, "force");
-            for (int d : directions(self, direction)) { self.add_forces(load, at, d, force); }
+            for (int d : directions(self, direction))
+            {
+               self.add_forces(load_name(load), at, d, force);
+            }
          },
          arg("load"), arg("nodes"), arg("direction"), arg("force"),
          "Adds a force at each node, per unit multiplier, to a load.\n\n"
@@ -431,7 +449,7 @@ void bind_stiffness(nb::module_ &m)
             finite(value, "value");
             for (int d : directions(self, direction))
             {
-               self.add_displacement(load, at, d, value);
+               self.add_displacement(load_name(load), at, d, value);
             }
          },
          arg("load"), arg("nodes"), arg("direction"), arg("value"),
@@ -444,8 +462,8 @@ void bind_stiffness(nb::module_ &m)
          "add_traction",
          [](Self &self, const std::string &load, Nodes nodes, Numbers traction, int order)
          {
-            self.add_traction(load, nodes_in(self, nodes), vector(traction, "traction", 2),
-                              within(order, "order", 0, 8));
+            self.add_traction(load_name(load), nodes_in(self, nodes),
+                              vector(traction, "traction", 2), within(order, "order", 0, 8));
          },
          arg("load"), arg("nodes"), arg("traction"), arg("order") = 0,
          "Adds a force per length, about an axis per area, to a load.\n\n"

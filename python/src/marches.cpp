@@ -149,7 +149,7 @@ using Marcher = std::function<MarchReport(const LoadHistory &, ContactState &,
 March march_by(const Marcher &marcher, const ReducedProblem &problem, const History &history,
                const ContactState *state, MarchSettings settings, bool keep_states,
                const Observer &observer, const ProgressLike &progress, const StopLike &stop,
-               const nb::kwargs &members)
+               const nb::kwargs &members, const std::vector<std::string> &bolts = {})
 {
    set_members(settings, members);
    March march = march_of(problem);
@@ -175,6 +175,8 @@ March march_by(const Marcher &marcher, const ReducedProblem &problem, const Hist
          interface.dissipation.push_back(cycle.node_dissipation(interface.nodes).sum());
       }
    }
+   const std::string early = nothing_presses(problem, loads, march.report, march.state, bolts);
+   if (!early.empty()) { march.report.message += "; " + early; }
    warn_of("march", march.report);
    if (march.report.status == FrictionStatus::converged &&
        march.report.counters.increments == 0)
@@ -208,8 +210,10 @@ March march_with_bolts(const BoltedJoint &self, const History &history,
    const Marcher marcher = [&self](const LoadHistory &loads, ContactState &at,
                                    const MarchSettings &how, const MarchObserver &each)
    { return self.march(loads, at, how, each); };
+   std::vector<std::string> bolts;
+   for (const Bolt &bolt : self.bolts()) { bolts.push_back(bolt.load); }
    March march = march_by(marcher, nb::cast<const ReducedProblem &>(problem), history, state,
-                          settings, keep_states, observer, progress, stop, members);
+                          settings, keep_states, observer, progress, stop, members, bolts);
    // Nobody asked for a march to stop where a bolt would push.
    const MarchReport &report = march.report;
    if (report.status == FrictionStatus::stopped &&

@@ -90,7 +90,7 @@ SAID = [
     (lambda: cattaneo.ReducedProblem([[1, 2], [0, 1]], np.zeros((2, 2)), np.eye(2), []), ValueError, r"A\[.*\] is .*, must be equal"),
     (lambda: setattr(problem(), "friction", [0.1, -0.1]), ValueError, r"friction\[1\] is -0.1, must not be negative"),
     (lambda: setattr(problem(), "gap", [1, 2, 3]), ValueError, "gap has 3 entries, must have 2"),
-    (lambda: cattaneo.march(problem(), [{}]), ValueError, "load history: 1 points, at least 2 are needed"),
+    (lambda: cattaneo.march(problem(), [{}]), ValueError, "load history: it has one point, must have two at least, the first without load"),
     (lambda: cattaneo.march(problem(), [{}, {"R": 1}]), ValueError, "'R'"),
     (lambda: cattaneo.march(problem(), [{}, {"P": np.inf}]), ValueError, "load .P. is inf at point 1, must be finite"),
     (lambda: cattaneo.MarchSettings(increments=0), ValueError, "march settings: increments is 0, must be at least 1"),

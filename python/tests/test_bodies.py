@@ -569,3 +569,27 @@ def test_bulk_stress_of_a_half_plane():
     assert displacement[0] == pytest.approx([strain, 2.0 * 0.3 / 0.7 * strain])
     with pytest.raises(cattaneo.InputError, match="bulk"):
         cattaneo.HalfPlane(cattaneo.Material(8.0, 0.3), depth=100.0, bulk={"Q": float("nan")})
+
+
+def test_nothing_is_held_or_loaded_in_silence():
+    """A mask that is true nowhere is a mistake, most often of a comparison with a coordinate."""
+    body = strip()
+    nowhere = body.places[:, 1] == 17.0
+    for call in (
+        lambda: body.fix(nowhere, "x"),
+        lambda: body.fix([], "x"),
+        lambda: body.add_forces("P", nowhere, "y", 1.0),
+        lambda: body.add_displacement("P", nowhere, "y", 1.0),
+        lambda: body.add_traction("P", nowhere, (0, 1)),
+        lambda: body.contact_line(nowhere),
+    ):
+        with pytest.raises(cattaneo.InputError, match="nodes is .*, must name one node at least"):
+            call()
+    for call in (
+        lambda: body.add_forces("", [0], "y", 1.0),
+        lambda: body.add_displacement("", [0], "y", 1.0),
+        lambda: body.add_traction("", body.places[:, 1] == 1, (0, 1)),
+    ):
+        with pytest.raises(cattaneo.InputError, match="load is '', a load must have a name"):
+            call()
+    assert len(body.fixed) == 0 and body.loads == {}

@@ -101,7 +101,7 @@ def test_methods_agree(run):
     ([*HERTZ[1:], "-friction", -1], ["option --friction", "-1", "not be negative"]),
     ([*HERTZ[1:], "-method", "newton"], ["option --method", "'newton'", "gauss-seidel"]),
     ([*HERTZ[1:], "-tolerance", 0], ["option --tolerance", "positive"]),
-    ([*HERTZ[1:], "-history", "P=0; R=1"], ["history 'R=1'", "no load pattern 'R'", "P, Q"]),
+    ([*HERTZ[1:], "-history", "P=0; R=1"], ["history 'R=1'", "there is no load 'R'", "P, Q"]),
     ([*HERTZ[1:], "-frames", 2], ["frames", "time 2", "from 0 to 1"]),
     ([*HERTZ[1:], "-load-state", "problems/hertz.json"], ["problems/hertz.json"]),
     ([*HERTZ[1:], "-save", "problems/hertz.json"], ["--save", "name another"]),

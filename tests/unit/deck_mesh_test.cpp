@@ -86,8 +86,10 @@ TEST(DeckMesh, HasSetsAndSurfacesAsParts)
    expect_input_error([&] { boundary_part("load", "single", terms); },
                       "SINGLE is no part of the boundary: it must be whole edges");
    expect_input_error([&] { boundary_part("load", "1", terms); },
-                      "'1', must be names of surfaces or sets of nodes");
-   expect_input_error([&] { boundary_part("load", "side", terms); }, "names are ALL, BOTTOM");
+                      "there is no part of the boundary '1', must be one of: ALL, BOTTOM");
+   expect_input_error([&] { boundary_part("load", "<side", terms); }, "names are ALL, BOTTOM");
+   expect_input_error([&] { boundary_part("load", "side", terms); },
+                      "'side': there is no part of the boundary 'side', must be one of: ALL");
 }
 
 /// Sections are the attributes of materials, in their order.
@@ -183,9 +185,14 @@ TEST(DeckMesh, RefusesInOneSentenceWithTheLine)
    says(both + "*ELSET, ELSET=A\n8\n", "line 14: there is no element 8");
    says(both + "*ELSET, ELSET=A, GENERATE\n7, 8\n", "must be between elements that are there");
    says(both + "*SOLID SECTION, ELSET=LEFT\n", "element 12 is in no *SOLID SECTION");
-   says(both + "*TIE, NAME=A\n", "*TIE makes nodes depend on others");
+   says(both + "*TIE, NAME=A\n", "*TIE joins sides of bodies, must be left out");
    says(both + "*TIE, NAME=A\n",
-        "say in the case that these sides are an interface that is tied");
+        "an interface between these sides in the case joins them, with the key 'tied'");
+   says(both + "*EQUATION\n2\n", "an interface that is tied");
+   says(both + "*KINEMATIC COUPLING\n", "moves nodes as one block");
+   says(both + "*RIGID BODY\n", "a guide in the case does (key 'guides')");
+   says(both + "*ELEMENT\n9, 1, 2, 3\n", "*ELEMENT has no TYPE, must have one");
+   says(both + "*INCLUDE, INPUT=deck.inp\n", "is within that file itself, must name another");
    says(both + "*ELGEN\n7, 2, 3, 1\n", "line 13: *ELGEN makes or moves nodes or elements");
    says("*NODE\n1, 0., 0., 1.\n2, 1., 0.\n3, 1., 1.\n*ELEMENT, TYPE=CPE3\n1, 1, 2, 3\n",
         "node 2 is at z = 0, the first one at 1");

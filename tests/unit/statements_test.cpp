@@ -61,9 +61,9 @@ TEST(Statements, SupportsAreThoseOfTheCalls)
    };
    refused("1", "support1 '1': must be attributes:components");
    refused("1:z", "component 'z', must be x, y or xy");
-   refused("0:x", "'0', must be boundary attributes");
-   refused("x:x", "'x', must be boundary attributes");
-   refused(":x", "'', must be boundary attributes");
+   refused("0:x", "'0', must be names or boundary attributes");
+   refused("x:x", "'x', must be names or boundary attributes");
+   refused(":x", "'', must be names or boundary attributes");
    refused("9:x", "9");
    refused("@1:x", "'@1', must be a point");
    refused("@1,a:x", "'a' is not a number");
@@ -117,8 +117,8 @@ TEST(Statements, LoadsAreThoseOfTheCalls)
    refused("P push 3 1", "kind 'push' is not one of pressure, traction, body-force");
    refused("P pressure 3", "has 3 words, must be PATTERN pressure WHERE p");
    refused("P traction 3 1", "must be PATTERN traction WHERE tx ty");
-   refused("P pressure 3[0<z<1] 1", "'3[0<z<1]', must be boundary attributes");
-   refused("P pressure 3[0<x<1 1", "must be boundary attributes");
+   refused("P pressure 3[0<z<1] 1", "'3[0<z<1]', must be names or boundary attributes");
+   refused("P pressure 3[0<x<1 1", "must be names or boundary attributes");
    refused("P pressure 3[a<x<1] 1", "'a' is not a number");
    refused("P=1 pressure 3 1", "must not hold =, a comma or a quote");
    refused("\xff pressure 3 1", "not UTF-8");

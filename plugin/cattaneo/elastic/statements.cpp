@@ -72,8 +72,16 @@ std::vector<int> attributes_of(const std::string &word, const BodyTerms &terms,
    {
       if (!its.empty()) { names.push_back(name); }
    }
-   require(terms.numbered && *end == 0 && number > 0 && number < 1000000000, error,
-           names.empty() ? "" : "; names are " + listed(names));
+   const bool is_number = terms.numbered && *end == 0 && number > 0 && number < 1000000000;
+   // A name that there is not; an error in what is no name says the form.
+   const bool is_name = !word.empty() && word.find_first_of("[]<>:") == std::string::npos;
+   require(is_number || !is_name || names.empty(), error.substr(0, error.find("', must be")),
+           "': there is no part of the boundary '", word, "', must be one of: ", listed(names),
+           terms.numbered ? ", or an attribute such as 3" : "");
+   require(is_number, error,
+           names.empty() ? terms.numbered ? "; the mesh has no names of curves"
+                                          : "; the deck has no names of parts of the boundary"
+                         : "; names are " + listed(names));
    return {static_cast<int>(number)};
 }
 
@@ -83,8 +91,8 @@ BoundaryPart boundary_part(const std::string &called, const std::string &text,
                            const BodyTerms &terms)
 {
    const std::string form = terms.numbered
-                               ? "', must be boundary attributes such as 3 or 3,4, perhaps "
-                                 "with an interval such as 3[-1<x<1]"
+                               ? "', must be names or boundary attributes such as 3 or 3,4, "
+                                 "perhaps with an interval such as 3[-1<x<1]"
                                : "', must be names of surfaces or sets of nodes, perhaps with "
                                  "an interval such as TOP[-1<x<1]";
    const std::size_t bracket = std::min(text.find('['), text.size());
@@ -141,7 +149,14 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
          continue;
       }
       const BoundaryPart part = boundary_part(where, place, terms);
-      for (int component : fixed) { body.fix(part, component); }
+      try
+      {
+         for (int component : fixed) { body.fix(part, component); }
+      }
+      catch (const InputError &error)
+      {
+         throw InputError(where + ": " + error.what());
+      }
    }
 }
 
@@ -217,7 +232,8 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       else if (name == "temperature")
       {
          require(!std::isnan(terms.expansion), where,
-                 ": the body's coefficient of thermal expansion is not given");
+                 ": the body's coefficient of thermal expansion is not given, must be (key "
+                 "'expansion' of a case)");
          const double expansion = terms.expansion;
          body.add_initial_strain(pattern, [expansion, T = field(2)](double x, double y)
                                  { return expansion * T(x, y); });

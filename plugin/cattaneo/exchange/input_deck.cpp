@@ -207,7 +207,12 @@ void DeckReader::begin(LineReader &in, int depth)
    {
       in.require(!file.empty(), "*INCLUDE has no INPUT, must name a file");
       in.require(depth < 10, "files include each other more than 10 deep, must not");
-      read((std::filesystem::path(in.file()).parent_path() / file).string(), depth + 1);
+      const std::filesystem::path beside =
+         std::filesystem::path(in.file()).parent_path() / file;
+      std::error_code unknown;
+      in.require(!std::filesystem::equivalent(beside, in.file(), unknown), "*INCLUDE of '",
+                 file, "' is within that file itself, must name another");
+      read(beside.string(), depth + 1);
       keyword_ = {};
    }
    begin_card(in);
@@ -240,19 +245,29 @@ void DeckReader::require_known(const LineReader &in) const
                                                    "EMBEDDED ELEMENT",
                                                    "TIE",
                                                    "CYCLIC SYMMETRY MODEL"};
-   in.require(couplings.count(name) == 0, "*", name,
-              " makes nodes depend on others, whose rows "
-              "are not their own then, must be left out",
-              use_ == DeckUse::stiffness ? ""
-              : name == "TIE"
-                 ? ": say in the case that these sides are an interface that is tied"
-                 : ": say in the case what holds or moves the body (a support, a guide)");
+   // A mesh is geometry alone: what the card does the case can say.
+   in.require(
+      use_ == DeckUse::stiffness || couplings.count(name) == 0, "*", name,
+      name == "TIE"
+         ? " joins sides of bodies, must be left out: an interface between these sides "
+           "in the case joins them, with the key 'tied'"
+      : name == "RIGID BODY" || name.find("COUPLING") != std::string::npos ||
+            name == "KINEMATIC" || name == "DISTRIBUTING"
+         ? " moves nodes as one block, must be left out: a guide in the case does (key "
+           "'guides')"
+      : name == "EQUATION" || name == "MPC"
+         ? " lets nodes move with others, must be left out: say in the case what it "
+           "stands for, a support, a guide, or an interface that is tied"
+         : " lets nodes move with others, must be left out: the case has no such thing");
    if (use_ == DeckUse::mesh) { return; }
+   in.require(couplings.count(name) == 0, "*", name,
+              " makes nodes depend on others, whose rows of the matrix are not their own then, "
+              "must be left out when the matrix is written");
    in.require(name != "TRANSFORM", "*TRANSFORM turns directions of nodes, must be left out: "
                                    "everything is read in x and y");
    in.require(name != "CONTACT PAIR" && name != "PRE-TENSION SECTION", "*", name,
-              " makes nodes depend on others, whose rows "
-              "are not their own then, must be left out");
+              " makes nodes depend on others, whose rows of the matrix are not their own then, "
+              "must be left out when the matrix is written");
 }
 
 /// *PART, *INSTANCE and their ends.
@@ -372,7 +387,8 @@ void DeckReader::data(LineReader &in)
    {
       const double thickness = in.number(fields[0], "the thickness of *SOLID SECTION");
       in.require(thickness == 1, "the thickness of *SOLID SECTION is ", thickness,
-                 ", must be 1: everything is per unit thickness");
+                 ", must be 1, as stiffness and forces are per thickness",
+                 use_ == DeckUse::mesh ? ": key 'thickness' of the case says it" : "");
    }
    // Those of a mesh are in the case.
    else if (name == "CLOAD" && use_ == DeckUse::stiffness) { load(in, fields); }
@@ -460,6 +476,9 @@ void DeckReader::node(const LineReader &in, const std::vector<std::string_view> 
 {
    in.require(fields.size() >= 3, "*NODE has ", fields.size(),
               " fields, must have a number and two coordinates");
+   // More are a direction, of three numbers.
+   in.require(fields.size() <= 4 || fields.size() == 7, "*NODE has ", fields.size(),
+              " fields, must have a number, x, y and z, with points as decimal marks");
    const int number = in.integer(fields[0], "the number of a node");
    in.require(number > 0, "the number of a node is ", number, ", must be positive");
    const Eigen::Vector2d place(in.number(fields[1], "x of a node"),
@@ -498,6 +517,7 @@ void DeckReader::element(LineReader &in)
    {
       in.add_integers(made.nodes, "a number of *ELEMENT");
    }
+   in.require(!made.type.empty(), "*ELEMENT has no TYPE, must have one, as TYPE=CPE4");
    if (made.nodes.empty()) { return; }
    made.number = made.nodes.front();
    made.nodes.erase(made.nodes.begin());

@@ -57,8 +57,11 @@ std::string upper_case(std::string_view text)
 
 LineReader::LineReader(std::string file) : file_(std::move(file)), in_(file_)
 {
-   cattaneo::require(in_.good() && !std::filesystem::is_directory(file_), "cannot read file '",
-                     file_, "'");
+   const bool folder = std::filesystem::is_directory(file_);
+   cattaneo::require(in_.good() && !folder, "cannot read file '", file_, "'",
+                     folder                           ? ", which is a folder"
+                     : std::filesystem::exists(file_) ? ""
+                                                      : ": there is no such file");
 }
 
 bool LineReader::next()

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 
 namespace cattaneo
 {
@@ -84,7 +85,9 @@ std::map<NodeDof, int> NodalStiffness::rows() const
               ", must have one");
       const auto place = places.find(dof.node);
       require(place != places.end() && place->second.allFinite(), "stiffness '", name,
-              "': node ", dof.node, " has no place, must have two finite coordinates");
+              "': node ", dof.node,
+              " has no place, must have two finite coordinates: is the deck or the file of "
+              "places that of this matrix?");
    }
    return rows;
 }
@@ -98,6 +101,13 @@ void NodalStiffness::validate() const
    require(components(formulation) == 2, "stiffness '", name,
            "': it is of torsion, must be plane or axisymmetric");
    rows();
+   const double near_axis = axis();
+   for (const auto &[node, place] : places)
+   {
+      require(formulation != Formulation::axisymmetric || place[0] >= -near_axis, "stiffness '",
+              name, "': node ", node, " is at r = ", place[0],
+              ", a body about an axis must have r >= 0");
+   }
    for (std::size_t k = 0; k < fixed.size(); ++k)
    {
       require(fixed[k] >= 0 && fixed[k] < size && (k == 0 || fixed[k - 1] < fixed[k]),
@@ -242,9 +252,12 @@ void NodalStiffness::require_free(const DofPlaces &at) const
       const double energy = u.dot(K * u), size = u.cwiseAbs().dot(K.cwiseAbs() * u.cwiseAbs());
       constexpr const char *called[] = {"a translation along x", "a translation along y",
                                         "a rotation"};
+      std::ostringstream share; // of no more digits than say something
+      share.precision(2);
+      share << std::abs(energy) / size;
       require(
          std::abs(energy) <= 1e-12 * size, "stiffness '", name, "': it resists ",
-         called[motion], " by ", std::abs(energy) / size,
+         called[motion], " by ", share.str(),
          " of its entries, without supports at most 1e-12 is allowed: are its rows in another "
          "order than its dofs, was it eliminated, has it less than 13 digits, or were "
          "supports left out of it (supports_left_out)?");
@@ -313,7 +326,9 @@ std::vector<NodalStiffness::Nodes> NodalStiffness::elements_on(const Nodes &node
       require(!elements.empty(), "stiffness '", name,
               "': no outer edge of an element has all of its "
               "nodes among the ",
-              nodes.size(), " given, there must be one at least");
+              nodes.size(),
+              " given, there must be one at least: are they on the boundary, with the nodes in "
+              "the middles of edges?");
       return elements;
    }
    const auto step = static_cast<std::size_t>(order);

@@ -108,7 +108,7 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
       inner.setFromTriplets(ii.begin(), ii.end());
       const Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(inner);
       require(factor.info() == Eigen::Success, "file '", file,
-              "': the stiffness of its internal nodes is singular, must not be");
+              "': the stiffness of its internal nodes is singular: they cannot be eliminated");
       const Eigen::SparseMatrix<double> inside = factor.solve(coupling);
       const Eigen::SparseMatrix<double> part = coupling.transpose() * inside;
       K -= 0.5 * (part + Eigen::SparseMatrix<double>(part.transpose()));
@@ -753,6 +753,7 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    require(ending == ".sti" || ending == ".mtx" || ending == ".npy" || ending == ".npz",
            "stiffness '", matrix, "' ends with '", ending,
            "', must end with .sti, .mtx, .npy or .npz");
+   require(fs::exists(matrix), "cannot read file '", matrix, "': there is no such file");
    const auto beside = [&](const char *of)
    {
       if (!places.empty()) { return places; }
@@ -832,8 +833,9 @@ std::string matrix_of_deck(const std::string &deck)
    {
       if (fs::exists(folder / name)) { found.push_back((folder / name).string()); }
    }
-   require(found.size() == 1, "deck '", deck, "': there are ", found.size(),
-           found.empty() ? " stiffnesses beside it, must be one of " : " stiffnesses, ",
+   require(found.size() == 1, "deck '", deck, "': there ",
+           found.empty() ? "is no stiffness beside it, must be one of "
+                         : "are " + std::to_string(found.size()) + " stiffnesses, ",
            found.empty() ? "'" + job + ".sti', '" + job + ".mtx' or '" + job + "_STIF1.mtx'"
                          : listed(found),
            found.empty() ? "" : ": the key or argument 'matrix' must name one");

@@ -84,11 +84,19 @@ NodalStiffness numbered_from_one(NodalStiffness stiffness)
    return stiffness;
 }
 
+/// By that name NumPy and read_stiffness() know what it is.
+void require_npz(const std::string &file)
+{
+   require(std::filesystem::path(file).extension() == ".npz", "write_npz: file '", file,
+           "' must end with .npz");
+}
+
 } // namespace
 
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M)
 {
+   require_npz(file);
    stiffness.validate();
    require_forces(file, stiffness);
    const auto size = static_cast<Index>(stiffness.dofs.size()),
@@ -128,6 +136,7 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
 
 void write_npz(const std::string &file, const ReducedProblem &problem, const Eigen::MatrixXd &M)
 {
+   require_npz(file);
    problem.validate();
    require_coulomb(problem, "write_npz");
    const auto count = static_cast<Index>(problem.patterns.size());

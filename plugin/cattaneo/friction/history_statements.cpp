@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/words.hpp>
@@ -18,22 +19,17 @@ LoadHistory load_history(const std::string &called, const std::string &text,
          const bool quoted = word[0] == '\'' || word[0] == '"';
          const std::size_t end = quoted ? word.find(word[0], 1) : 0,
                            equals = word.find('=', end);
-         require(equals != std::string::npos && (!quoted || equals == end + 1), where, ": '",
-                 word,
-                 "', must be PATTERN=number such as P=1, a name with spaces, commas or = in "
-                 "quotes");
+         require(
+            equals != std::string::npos && (!quoted || equals == end + 1), where, ": '", word,
+            "', must be PATTERN=number such as P=1 without spaces, a name with spaces, commas "
+            "or = in quotes");
          const std::string name = quoted ? word.substr(1, end - 1) : word.substr(0, equals);
          require(point.count(name) == 0, where, ": '", name,
                  "' is there twice, each point has one value of it; points are separated by "
                  "semicolons, as 'P=0; P=1'");
-         try
-         {
-            problem.pattern(name);
-         }
-         catch (const InputError &error)
-         {
-            throw InputError(where + ": " + error.what());
-         }
+         const std::vector<std::string> loads = problem.load_names();
+         require(std::find(loads.begin(), loads.end(), name) != loads.end(), where,
+                 ": there is no load '", name, "', must be one of: ", listed(loads));
          point[name] = number(where, word.substr(equals + 1));
       }
       points.push_back(point);
@@ -46,9 +42,48 @@ LoadHistory load_history(const std::string &called, const std::string &text,
    for (const auto &[name, value] : points[0])
    {
       require(value == 0, called, ": ", name, " is ", value,
-              " at the first point, must be 0: the bodies start without load");
+              " at the first point, must be 0: the bodies start without load, begin with '",
+              name, "=0'");
    }
+   require(points.size() > 1, called, " has one point, must have two at least, as '",
+           problem.patterns.empty() ? "P" : problem.patterns[0].name, "=0; ",
+           problem.patterns.empty() ? "P" : problem.patterns[0].name,
+           "=1': from one to the next loads grow");
    return LoadHistory::through(problem, points);
+}
+
+std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &history,
+                            const MarchReport &report, const ContactState &state,
+                            const std::vector<std::string> &bolts)
+{
+   const bool ended =
+      report.status != FrictionStatus::converged && report.status != FrictionStatus::stopped;
+   if (!ended || state.p.size() == 0 || state.p.maxCoeff() > 0) { return ""; }
+   std::vector<std::string> later;
+   for (std::size_t l = 0; l < problem.patterns.size(); ++l)
+   {
+      const auto row = history.multipliers.row(static_cast<Eigen::Index>(l));
+      Eigen::Index point = 0;
+      while (point < row.size() && row[point] == 0) { ++point; }
+      // It grows from the point before on.
+      const Eigen::VectorXd &p = problem.patterns[l].p;
+      const bool presses = p.sum() * row.sum() > 1e-9 * p.lpNorm<1>() * row.lpNorm<1>();
+      if (!presses || point == row.size() || point == 0 ||
+          history.times[point - 1] <= state.time)
+      {
+         continue;
+      }
+      const std::string &name = problem.patterns[l].name;
+      const bool bolt = std::find(bolts.begin(), bolts.end(), name) != bolts.end();
+      later.push_back((bolt ? "bolt '" : "load '") + name +
+                      (bolt ? "' is tightened at point " : "' begins towards point ") +
+                      std::to_string(point));
+   }
+   return later.empty()
+             ? "nothing presses the bodies together, and no load comes later: is the sign of "
+               "one of them wrong?"
+             : "nothing presses yet: " + listed(later) +
+                  " of the history (from 0), what presses must come first";
 }
 
 } // namespace cattaneo

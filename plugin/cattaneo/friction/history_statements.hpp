@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/friction/load_history.hpp>
+#include <cattaneo/friction/march.hpp>
 #include <string>
 
 namespace cattaneo
@@ -16,5 +17,12 @@ namespace cattaneo
     not or that is named twice, a quote without an end, and a load at the first point. */
 LoadHistory load_history(const std::string &called, const std::string &text,
                          const ReducedProblem &problem);
+
+/** Of a march that found no equilibrium: a sentence if nothing pressed in its last state, with
+    the loads of the history that come later; else empty.
+    @param bolts  names of loads that tighten bolts */
+std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &history,
+                            const MarchReport &report, const ContactState &state,
+                            const std::vector<std::string> &bolts = {});
 
 } // namespace cattaneo

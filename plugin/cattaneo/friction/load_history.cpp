@@ -80,7 +80,9 @@ LoadPiece LoadHistory::piece(int k) const
 
 void LoadHistory::validate(const ReducedProblem &problem) const
 {
-   require(times.size() >= 2, "load history: ", times.size(), " points, at least 2 are needed");
+   require(times.size() >= 2, "load history: it has ",
+           times.size() == 1 ? "one point" : "no point",
+           ", must have two at least, the first without load");
    require(multipliers.cols() == times.size(), "load history: ", multipliers.cols(),
            " columns of multipliers for ", times.size(), " times");
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());

@@ -87,8 +87,15 @@ private:
          require(std::abs(value) <= std::numeric_limits<int>::max(), "mesh file has ", value,
                  " in ", section_, ", must be an integer of 32 bits");
       }
-      require(in_.good() || (in_.eof() && !in_.fail()), "mesh file ends within ", section_,
-              ", or has there what is no number");
+      if (in_.fail())
+      {
+         require(!in_.eof(), "mesh file ends within ", section_, ", must be whole");
+         in_.clear();
+         std::string word;
+         in_ >> word;
+         require(false, "mesh file has '", word.substr(0, 40), "' in ", section_,
+                 ", must be a number");
+      }
       return value;
    }
 

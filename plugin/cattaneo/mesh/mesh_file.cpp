@@ -361,8 +361,8 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
    require(type != std::filesystem::file_type::not_found,
            "mesh file cannot be read: there is no such file");
    std::ifstream in(file);
-   require(in.good() && type == std::filesystem::file_type::regular,
-           "mesh file cannot be read");
+   require(in.good() && type == std::filesystem::file_type::regular, "mesh file cannot be read",
+           type == std::filesystem::file_type::directory ? ": it is a folder" : "");
    const long size = static_cast<long>(std::filesystem::file_size(file));
    std::string line, converted;
    std::getline(in, line);

@@ -200,8 +200,9 @@ void balance(const MatrixXd &motions, MatrixXd &forces, const VectorXd &scale,
    {
       const double load = push.col(k).norm();
       require(load <= 1e-9 * scale[k], "reduce: load pattern '", patterns[k].name, "' pushes ",
-              bodies, " in a common rigid motion that nothing resists (part ", load / scale[k],
-              " of it), its loads must be in equilibrium or a body be supported");
+              bodies,
+              " in a common rigid motion that nothing resists: a support must hold one of them "
+              "against it, or the forces of the load must balance each other");
    }
    add_product(forces, motions, push, -1);
 }

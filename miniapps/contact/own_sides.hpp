@@ -1,0 +1,22 @@
+#pragma once
+
+#include "contact/own_part.hpp"
+
+#include <array>
+#include <vector>
+
+namespace miniapp
+{
+
+/// InputError if both sides of an interface are of one mesh, whose bodies overlap wholly.
+void require_own_meshes(const JointCase &joint);
+
+/// InputError if a side reaches into a guide of its body, whose nodes move as one block, or if
+/// supports hold all of it. `lines`: of both sides of each interface.
+void require_sides_free(const JointCase &joint, const std::vector<OwnPart> &parts,
+                        const std::vector<std::array<cattaneo::ContactLine, 2>> &lines);
+
+/// A sentence if bodies that meet differ in size as metres and millimetres do; else empty.
+std::string other_units(const JointCase &joint, const std::vector<OwnPart> &parts);
+
+} // namespace miniapp

@@ -1,0 +1,103 @@
+"""Mistakes that users make with files of their own: one sentence each, which names interface, body and side, and the cure."""
+
+import pytest
+from programs import body, changed, face, shipped
+
+PAD, BASE = {"load": ["P pressure 3 1", "Q traction 3 0.1 0"]}, {"support": "1:xy"}
+
+
+@pytest.fixture
+def two(run):
+    """A pad on a base; boundary 1 below, 2 right, 3 above, 4 left."""
+    run.block("pad.mesh", -1, 1, 8, 0, 2, 8)
+    run.block("base.mesh", -2, 2, 16, -2, 0, 8)
+    return {
+        "version": 2, "order": 1,
+        "bodies": {"pad": body("pad.mesh", **PAD), "base": body("base.mesh", **BASE)},
+        "interfaces": {"face": face("pad:1", "base:3")},
+        "history": ["P=0", "P=1", "Q=1"],
+    }  # fmt: skip
+
+
+CHANGES = {
+    # A side that reaches into a guide or a support.
+    "a side in a guide": (
+        {"bodies.base.support": None, "bodies.base.guides": [{"on": "3", "x": "held", "y": "held"}]},
+        ["interface 'face': its side '3' of body base is all of it in the guide on '3'", "must be another part"],
+    ),
+    "a side that ends at a guide": (
+        {"bodies.pad.guides": [{"on": "4", "x": "free", "y": "free"}]},
+        ["interface 'face': its side '1' of body pad reaches into the guide on '4' at (-1, 0)", "one of them must end before the other",
+         "1[0<x<1]"],
+    ),
+    "a side that supports hold": (
+        {"bodies.base.support": "3:xy"},
+        ["interface 'face': its side '3' of body base is held in all components by supports of the body (3:xy)"],
+    ),
+    # One mesh for two bodies.
+    "one mesh twice": (
+        {"bodies.base.mesh": "pad.mesh", "bodies.base.support": "3:xy", "interfaces.face.between": ["pad:1", "base:3"]},
+        ["interface 'face': bodies pad and base are the same mesh '", "pad.mesh' at the same place, they overlap wholly",
+         "each must have a mesh of its own"],
+    ),
+    "what nothing holds": ({"bodies.base.support": None}, ["load pattern 'P' pushes body 'pad' and body 'base'", "a support must hold one of them"]),
+    "a part that there is not": (
+        {"interfaces.face.between.0": "pad 1"}, ["between.0': 'pad 1': there is no body 'pad 1', must be one of pad, base", "as BODY:PART"],
+    ),
+    "an empty list of bodies": ({"bodies": {}}, ["key 'bodies' is empty, must be an object with at least one key"]),
+    "a first point with a load": ({"history": ["P=1", "Q=1"]}, ["P is 1 at the first point, must be 0", "begin with 'P=0'"]),
+    "a folder": ({"bodies.pad.mesh": "."}, ["body pad ('", "mesh file cannot be read: it is a folder"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_changes_of_a_case(run, two, name):
+    changes, words = CHANGES[name]
+    refused = run.case(changed(two, changes), code=1)
+    for word in words:
+        assert word in refused.error, refused.error
+    assert not any(inside in refused.error for inside in ("dofs", "rows", "(part "))
+
+
+@pytest.mark.parametrize("small", ["pad", "base"])
+def test_metres_beside_millimetres(run, two, small):
+    """Refused or warned of, whichever body has the other unit."""
+    extents = {"pad": (-1, 1, 8, 0, 2, 8), "base": (-2, 2, 16, -2, 0, 8)}[small]
+    run.block("small.mesh", *[x if k in (2, 5) else 1e-3 * x for k, x in enumerate(extents)])
+    got = run.case(changed(two, {f"bodies.{small}.mesh": "small.mesh"}), code=None)
+    said = got.output
+    assert "interface 'face': body pad is " in said and "are both meshes in the same unit of length" in said
+    usual = run.case(two)
+    assert "same unit" not in usual.output
+
+
+def test_what_moves_before_anything_presses(run, two):
+    for history in (["P=0", "Q=1", "P=1"], ["P=0", "Q=0", "Q=1", "P=1"]):
+        got = run.case({**two, "history": history}, code=2)
+        assert got["status"] == "gross sliding"
+        assert f"nothing presses yet: load 'P' begins towards point {len(history) - 1} of the history" in got["message"], got["message"]
+    pulled = run.case(changed(two, {"bodies.pad.load": ["P pressure 3 -1"], "history": ["P=0", "P=1"]}), code=2)
+    assert "nothing presses the bodies together, and no load comes later: is the sign of one of them wrong?" in pulled["message"]
+    # Where something presses nothing of the kind is said.
+    slid = run.case(changed(two, {"history": ["P=0", "P=1", "Q=20"]}), code=2)
+    assert slid["status"] == "gross sliding" and "presses" not in slid["message"]
+
+
+def test_bolts_that_are_tightened_too_late(run):
+    case = shipped("bolted_joint_drawing")
+    case.pop("cycle-start")
+    case.pop("cycles")
+    got = run.case({**case, "history": ["Q=0", "Q=1", "bolt=1"]}, code=2)
+    assert "nothing presses yet: bolt 'bolt' is tightened at point 2 of the history" in got["message"], got["message"]
+
+
+@pytest.mark.parametrize("text, words", [
+    ('{"version": 2, "bodies": {"pad": {"mesh": "pad.mesh",}}}', "line 1, column 54: unexpected '}', must be a name in double quotes, or no comma before it"),
+    ('{"version": 2,\n "bodies": {', "line 2, column 13: unexpected end of input, must be"),
+    ("{'version': 2}", "line 1, column 2: invalid literal; last read: '{''"),
+    ("", "line 1, column 1: unexpected end of input"),
+])  # fmt: skip
+def test_json_that_is_broken(run, text, words):
+    run.write("case.json", text)
+    error = run("contact", "--case", run.folder / "case.json", code=1).error
+    assert words in error and "json.exception" not in error and "syntax error" not in error, error
