@@ -218,6 +218,16 @@ double OwnPart::size() const
    return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
+std::set<int> OwnPart::supported() const
+{
+   std::set<int> dofs;
+   for (const Holding &each : holdings_)
+   {
+      if (each.kind == "support") { dofs.insert(each.dofs.begin(), each.dofs.end()); }
+   }
+   return dofs;
+}
+
 std::vector<int> OwnPart::fixed() const
 {
    if (nodal_) { return nodal_->fixed; }

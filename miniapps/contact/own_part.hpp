@@ -7,6 +7,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/smooth_sides.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,8 @@ public:
 
    /// The diagonal of the box around it; 0: not known, on several ranks.
    double size() const;
-   /// Dofs that supports and prescribed displacements hold, increasing.
-   std::vector<int> fixed() const;
+   /// Dofs that its supports hold.
+   std::set<int> supported() const;
 
    /// In a sentence.
    std::string called() const;
@@ -60,6 +61,7 @@ public:
 
 private:
    void make_of_mesh(OwnBodies &own, int b);
+   std::vector<int> fixed() const;
    /// Does what holds something; all that was free before is its.
    template <class Hold>
    void hold(const std::string &kind, const std::string &name, Hold hold);

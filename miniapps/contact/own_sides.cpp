@@ -50,17 +50,11 @@ void require_side_free(const JointCase &joint, const JointCase::Face &face,
               "interval as ",
               side.part, "[0<x<1]");
    }
-   const std::vector<int> held = part.fixed();
-   const bool all_held =
-      std::all_of(line.nodes.begin(), line.nodes.end(),
-                  [&](const LineNode &node)
-                  {
-                     return std::all_of(node.dofs.begin(), node.dofs.end(),
-                                        [&](int dof) {
-                                           return dof < 0 || std::binary_search(
-                                                                held.begin(), held.end(), dof);
-                                        });
-                  });
+   const std::set<int> held = part.supported();
+   const auto is_held = [&](int dof) { return dof < 0 || held.count(dof) == 1; };
+   const bool all_held = std::all_of(
+      line.nodes.begin(), line.nodes.end(),
+      [&](const LineNode &node) { return is_held(node.dofs[0]) && is_held(node.dofs[1]); });
    require(!all_held || line.size() == 0, called(joint, face, side),
            " is held in all components by supports of the body (",
            joint.bodies[side.body].support,
