@@ -44,8 +44,15 @@ void require_side_free(const JointCase &joint, const JointCase::Face &face,
       require(inside == 0 || inside < line.size(), called(joint, face, side),
               " is all of it in the guide on '", guide.on,
               "', which moves as one block: it must be another part, the one that touches");
-      require(inside == 0, called(joint, face, side), " reaches into the guide on '", guide.on,
-              "' at ", first ? first->position : Eigen::Vector2d(0, 0),
+      // Nodes of a block that is held all the way are as those of a support.
+      const auto held = [](const Guide::Along &along)
+      { return along.motion == Guide::Motion::held; };
+      const bool along_axis = joint.formulation != Formulation::plane;
+      const Guide &moves = guide.guide;
+      require(inside == 0 ||
+                 (held(moves.y) && (along_axis || (held(moves.x) && held(moves.rotation)))),
+              called(joint, face, side), " reaches into the guide on '", guide.on, "' at ",
+              first ? first->position : Eigen::Vector2d(0, 0),
               ", whose nodes move as one block: one of them must end before the other, by an "
               "interval as ",
               side.part, "[0<x<1]");
