@@ -102,7 +102,7 @@ class Joint:
                                     self.random.choice(["preload", "preload", "pretension"]): self.pick(1, 10)}
                 self.bolts[bolt]["ends"] = [((low + up) / 2, high), ((base_x[k] + base_x[k + 1]) / 2, -2)]
         turned = any("moment" in guide["rotation"] for body in self.bodies.values() for guide in body.get("guides", []))
-        history = ["P=0", "P=1", *(f"{bolt}=1" for bolt in self.bolts), *(f"{load}={self.pick(-1, 1)}" for load in ("Q", *(["M"] if turned else [])))]
+        history = ["P=0", "P=1", *(f"{bolt}=1" for bolt in self.bolts), *(f"{load}={self.random.choice([1, 1, 8]) * self.pick(-1, 1)}" for load in ("Q", *(["M"] if turned else [])))]
         bolts = {name: {key: value for key, value in bolt.items() if key != "ends"} for name, bolt in self.bolts.items()}
         self.case = {"analysis": "plane stress" if stress else "plane strain", "order": self.random.choice([1, 2]), "bodies": self.bodies, "interfaces": self.interfaces, "history": history}
         if bolts:
