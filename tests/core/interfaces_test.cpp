@@ -1262,11 +1262,37 @@ TEST_F(Interfaces, ObstaclesUnderForcesAreInEquilibrium)
       },
       "they have been freed already");
    expect_input_error([&] { rest.free_obstacles({}); }, "there is no motion");
+   // A force on the obstacle with the name of the body's load is one load with it, and so is a
+   // motion of the obstacle with the name of a load that moves the body.
+   VectorXd together = loads;
+   together[2] = loads[0];
+   Reduction joined = reduce(body.condensed());
+   joined.free_obstacles({{"P", 3, {{0, 0.0, up}}}, {"", 1, {{0, turns_x, turns_y}}}});
+   ASSERT_EQ(joined.problem.patterns.size(), 2u);
+   joined.problem.validate();
+   const auto expect_joined = [&](Reduction &one, Reduction &apart, Index load)
+   {
+      const VectorXd two = loads.head(2);
+      EXPECT_LT(difference(forces(one.problem, u, two), forces(apart.problem, u, together)),
+                1e-11);
+      VectorXd expected = conjugate(apart.problem, u, together);
+      expected[load] += expected[2];
+      EXPECT_LT(difference(conjugate(one.problem, u, two), expected.head(2)), 1e-11);
+      EXPECT_LT(difference(one.displacement(0, u.head(n), u.tail(n), two),
+                           apart.displacement(0, u.head(n), u.tail(n), together)),
+                1e-11);
+   };
+   expect_joined(joined, free, 0);
+   Reduction moves = reduce(body.condensed()), apart = reduce(body.condensed());
+   moves.add_obstacle_motion("D", turns_x, turns_y);
+   apart.add_obstacle_motion("E", turns_x, turns_y);
+   together[2] = loads[1];
+   expect_joined(moves, apart, 1);
    expect_input_error(
       [&] {
-         rest.free_obstacles({{"P", 1, {{0, 0.0, up}}}});
+         rest.free_obstacles({{"D", 1, {{0, 0.0, up}}}});
       },
-      "a load pattern of that name is there already");
+      "a load pattern of that name is there already, and is controlled by displacement");
    expect_input_error(
       [&] {
          rest.free_obstacles({{"Q", 1, {{0, 0.0, up}}}, {"R", 1, {{0, 0.0, up}}}});

@@ -657,3 +657,25 @@ def test_a_face_that_tilts_about_a_corner_of_the_contact(run):
     still, moved = pressures("0.002*y"), pressures("0.002*y+1e-12")
     for name in ("p", "q", "slip"):
         alike(still[name], moved[name], 1e-6 * max(map(abs, moved[name])))
+
+
+def test_loads_of_one_name_on_bodies_and_obstacles(run):
+    """They are one load: an inclined force on an indenter, and a face that is moved with the floor that it stands on."""
+    inclined = indenter(run, x={"force": "P", "value": 3}, y={"force": "P", "value": -20})
+    one = run.case({**inclined, "history": ["P=0", "P=1"]}, "--csv", run.folder / "one")
+    two = run.case({**changed(inclined, {"interfaces.face.guide.x": {"force": "Q", "value": 3}}), "history": ["P=0", "P=1 Q=1"]}, "--csv", run.folder / "two")
+    assert one["loads"] == {"P": 1}
+    near(one.interface("face")["force_x"], 3, 1e-9)
+    near(one.interface("face")["force_y"], -20, 1e-9)
+    alike(run.columns("one_nodes.csv")["q"], run.columns("two_nodes.csv")["q"], 1e-9 * one["peak_pressure"])
+    both = [run.columns("two_history.csv")[f"displacement {load}"][-1] for load in "PQ"]
+    near(run.columns("one_history.csv")["displacement P"][-1], sum(both), 1e-9 * abs(sum(both)))
+    assert two["peak_pressure"] == pytest.approx(one["peak_pressure"], rel=1e-9)
+    # A pad whose faces are moved with its floor does not slip, and friction has nothing to do.
+    run.block("pad.mesh", 0, 2, 7, 0, 1, 4)
+    case = {"bodies": {"pad": body("pad.mesh", None, ["P pressure 3 5", "D displacement-x 2,4 0.1"], 1000, 0)},
+            "interfaces": {"floor": {"between": ["pad:1"], "friction": 0.3, "motion": {"D": {"x": 0.1}}}}, "history": ["P=0", "P=1", "D=1"]}
+    got = run.case(case, "--csv", run.folder / "out")
+    near_all(run.columns("out_nodes.csv")["slip"], 0, 1e-12)
+    near_all(run.columns("out_nodes.csv")["q"], 0, 1e-9)
+    near(run.columns("out_history.csv")["reaction D"][-1], 0, 1e-9)

@@ -5,6 +5,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
+#include <set>
 
 namespace cattaneo
 {
@@ -17,16 +18,53 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// What errors about a pattern of this name begin with; InputError if it is none or taken.
-std::string new_pattern(const ReducedProblem &problem, const std::string &name)
+/// What errors about a pattern of this name begin with; InputError if it is none, or one of the
+/// other kind is there already.
+std::string named_pattern(const ReducedProblem &problem, const std::string &name,
+                          Control control)
 {
    require(!name.empty(), "obstacle motion: it has no name, must have one");
    const std::string where = "obstacle motion '" + name + "'";
    for (const LoadPattern &pattern : problem.patterns)
    {
-      require(pattern.name != name, where, ": a load pattern of that name is there already");
+      require(pattern.name != name || pattern.control == control, where,
+              ": a load pattern of that name is there already, and is controlled by ",
+              control == Control::force ? "displacement, not by force"
+                                        : "force, not by displacement");
    }
    return where;
+}
+
+/// Patterns from number `first` on that have the name of one before them become one with it,
+/// and so do their columns: they have one multiplier, and their conjugates add up.
+void join_names(ReducedProblem &problem, std::size_t first, MatrixXd &columns)
+{
+   std::vector<LoadPattern> &all = problem.patterns;
+   for (std::size_t k = first; k < all.size();)
+   {
+      std::size_t same = 0;
+      while (all[same].name != all[k].name) { ++same; }
+      if (same == k)
+      {
+         ++k;
+         continue;
+      }
+      const auto from = static_cast<Index>(k), to = static_cast<Index>(same);
+      std::vector<Index> left;
+      for (Index j = 0; j < static_cast<Index>(all.size()); ++j)
+      {
+         if (j != from) { left.push_back(j); }
+      }
+      all[same].q += all[k].q;
+      all[same].p += all[k].p;
+      all.erase(all.begin() + from);
+      columns.col(to) += columns.col(from);
+      columns = columns(Eigen::all, left).eval();
+      if (problem.H.rows() == 0) { continue; }
+      problem.H.row(to) += problem.H.row(from);
+      problem.H.col(to) += problem.H.col(from);
+      problem.H = problem.H(left, left).eval();
+   }
 }
 
 } // namespace
@@ -75,11 +113,17 @@ VectorXd Reduction::displaced(const std::string &where,
          if (!torsion.empty()) { d[n + node] = theta; }
       }
    }
+   std::set<Index> known; // nodes whose slip is a load's, without friction
+   for (const InterfaceReport &of : interfaces)
+   {
+      for (const InterfaceReport::Moved &one : of.moved) { known.insert(one.node); }
+   }
    for (Index row : problem.held)
    {
       const Index i = row % n;
-      require(std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(), where, ": it moves by ",
-              d[row], " along the component that is fixed at the node ",
+      require(known.count(row) > 0 || std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(),
+              where, ": it moves by ", d[row],
+              " along the component that is fixed at the node ",
               Vector2d(problem.position.row(i)), ", must not");
       d[row] = 0;
    }
@@ -103,7 +147,7 @@ VectorXd Reduction::moved(const VectorXd &u, const VectorXd &multipliers) const
 void Reduction::add_obstacle_motion(const std::string &name,
                                     const std::vector<ObstacleMotion> &motions)
 {
-   const std::string where = new_pattern(problem, name);
+   const std::string where = named_pattern(problem, name, Control::displacement);
    const Index n = problem.nodes(), m = problem.slips();
    const VectorXd d = displaced(where, motions);
    // The body moves by u + λ d: f = K (u + λ d) + …, and the reaction is dᵀ f.
@@ -128,6 +172,7 @@ void Reduction::add_obstacle_motion(const std::string &name,
    all.leftCols(obstacle_.cols()) = obstacle_;
    all.col(k) = d;
    obstacle_ = all;
+   join_names(problem, static_cast<std::size_t>(k), obstacle_);
 }
 
 /* Obstacles that move by D y under the forces F take U = u + D y of the bodies, and the forces
@@ -151,7 +196,8 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
    for (Index a = 0; a < count; ++a)
    {
       const std::string &load = motions[a].load;
-      D.col(a) = displaced(load.empty() ? "free obstacle" : new_pattern(problem, load),
+      D.col(a) = displaced(load.empty() ? "free obstacle"
+                                        : named_pattern(problem, load, Control::force),
                            motions[a].motions);
    }
    const MatrixXd KD = product(problem.K, D);
@@ -229,6 +275,7 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
          ++of;
       }
    }
+   join_names(problem, static_cast<std::size_t>(before), by_load_);
    // 3. Bodies and obstacles that move together meet no resistance.
    MatrixXd half = unit.asDiagonal() * KD.transpose();
    factor.solve_half(half);

@@ -105,9 +105,11 @@ public:
        is linearised), and the conjugate of the pattern is the obstacles' reaction. Shanks must
        have been added before.
 
-       InputError if the name is empty or taken, if an interface is between two bodies or tied,
-       if a displacement is not finite, or if it moves along a component that is held (a plane
-       of symmetry). */
+       A load of prescribed displacements that has the name already is one load with it.
+
+       InputError if the name is empty or that of a load of forces, if an interface is between
+      two bodies or tied, if a displacement is not finite, or if it moves along a component that
+      is held (a plane of symmetry). */
    void add_obstacle_motion(const std::string &name,
                             const std::vector<ObstacleMotion> &motions);
    /// The same of all obstacles of one body.
@@ -120,9 +122,11 @@ public:
       add_obstacle_motion(). The load of a motion is a force on the obstacles that does work
       `force` per unit multiplier and unit of the motion (a force along it, a moment about a
       turn's centre), and its conjugate is how far they move, times `force`. A motion without a
-      name has no load. Shanks must have been added before, prescribed motions after.
+      name has no load. Loads of one name are one, those of motions here and forces that are
+      there already. Shanks must have been added before, prescribed motions after.
 
-       InputError as of add_obstacle_motion(), if no motion is given, or if the bodies do not
+       InputError if a name is that of prescribed displacements, as of add_obstacle_motion(),
+       if no motion is given, or if the bodies do not
        resist one of them. */
    struct FreeMotion
    {
