@@ -16,6 +16,7 @@
 
 #include "common/contact_edges.hpp"
 #include "common/own_history.hpp"
+#include "contact/example_case.hpp"
 #include "contact/joint_report.hpp"
 #include "contact/named_points.hpp"
 #include "contact/own_bodies.hpp"
@@ -60,13 +61,19 @@ struct CaseOptions
 {
    int order = 2;
    double thickness = none;
-   std::string paraview, analysis = "plane strain", geometry = "smooth", bodies, interfaces,
-                         bolts, points, units;
+   std::string example, paraview, analysis = "plane strain", geometry = "smooth", bodies,
+                                  interfaces, bolts, points, units;
    std::vector<double> edges;
 
    explicit CaseOptions(Study &study)
    {
       study.options().require_version(2);
+      study.options().group("The case");
+      study.option(&example, "example",
+                   ("Prints a case to start from, as in --example joint > my.json, and ends: " +
+                    example_names() + ".")
+                      .c_str());
+      study.options().leave_out_of_cases("example");
       study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
       study.option(
          &thickness, "thickness",
@@ -125,6 +132,7 @@ void contact(Study &study)
    CaseOptions options(study);
    OwnHistory history(study);
    study.parse();
+   require(options.example.empty(), "option --example stands alone: it prints a case and ends");
    options.check_edges();
    const JointCase joint = options.joint();
    history.check_options();
@@ -179,10 +187,13 @@ void contact(Study &study)
       touches || !own.bolted,
       "all interfaces are tied, and bolts have the key 'preload', which is for joints that "
       "may open or slip: key 'pretension' must be there in its place");
-   study.say((touches
-                 ? text("   gap %g to %g; ", problem.gap.minCoeff(), problem.gap.maxCoeff())
-                 : std::string("   all interfaces are tied; ")) +
-             text("relative error of the condensed stiffness: %.2g (estimate)", own.accuracy));
+   if (!touches || study.verbose())
+   {
+      study.say(
+         (touches ? text("   gap %g to %g; ", problem.gap.minCoeff(), problem.gap.maxCoeff())
+                  : std::string("   all interfaces are tied; ")) +
+         text("relative error of the condensed stiffness: %.2g (estimate)", own.accuracy));
+   }
    warn_of_accuracy(own.accuracy);
    std::deque<SidesThatBear> beyond_corners;
    const std::vector<bool> even = even_sides(joint);
@@ -288,5 +299,10 @@ void contact(Study &study)
 
 int main(int argc, char *argv[])
 {
-   return Study::run("contact", argc, argv, contact);
+   return Study::run("contact", argc, argv,
+                     [&](Study &study)
+                     {
+                        if (prints_example(argc, argv)) { throw Leave(); }
+                        contact(study);
+                     });
 }

@@ -54,12 +54,27 @@ Film::Film(const std::string &name, const ReducedProblem &problem)
                        {"word", std::string(problem.knows_loads() ? "" : "contact ") +
                                    (force ? "displacement" : "reaction")}});
    }
-   for (const ContactChain &chain : problem.chains) { breaks.push_back(chain.first); }
+   ordered_json interfaces = ordered_json::array(); // of nodes that follow one another
+   for (const ContactChain &chain : problem.chains)
+   {
+      breaks.push_back(chain.first);
+      const bool follows = !interfaces.empty() && interfaces.back()["name"] == chain.interface;
+      if (!follows)
+      {
+         interfaces.push_back({{"name", chain.interface}, {"first", chain.first}});
+      }
+      interfaces.back()["end"] = chain.first + chain.nodes;
+   }
+   if (interfaces.empty())
+   {
+      interfaces.push_back({{"name", ""}, {"first", 0}, {"end", problem.nodes()}});
+   }
    head_ = {{"name", name},
             {"loads", loads},
             {"position", list(problem.arc_length)},
             {"friction", list(problem.friction)},
-            {"breaks", breaks}};
+            {"breaks", breaks},
+            {"interfaces", interfaces}};
 }
 
 void Film::add(const ReducedProblem &problem, const ContactState &state,
@@ -68,8 +83,8 @@ void Film::add(const ReducedProblem &problem, const ContactState &state,
    ordered_json zones = ordered_json::array();
    for (const Zone &zone : drawn_zones(problem, state))
    {
-      zones.push_back(
-         {name(zone.state), rounded(zone.from.position), rounded(zone.to.position)});
+      zones.push_back({name(zone.state), rounded(zone.from.position), rounded(zone.to.position),
+                       problem.chains[zone.chain].interface});
    }
    last_ = {{"row", history_.size()},
             {"p", list(tractions(problem, state.p))},

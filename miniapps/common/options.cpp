@@ -163,6 +163,7 @@ Options::Options(int argc, char *argv[]) : words_(argv, argv + argc)
 void Options::add(Value value, const Names &names, const char *help, const Check &check)
 {
    options_.push_back({names, help, value, check});
+   options_.back().group = group_;
 }
 
 void Options::add(std::string *value, const Names &names, const char *help, Text kind)
@@ -320,19 +321,32 @@ void Options::read_words()
 
 void Options::print_help() const
 {
-   std::printf("Options (-h, --help: this list):\n");
+   std::printf("Options (-h, --help: this list)\n");
+   std::vector<std::string> headings; // in the order of their first options
    for (const Option &option : options_)
    {
-      static const char *const kinds[] = {"integer", "number", "", "text", "numbers"};
-      const auto &on = option.names.on;
-      const std::string now = option.text(), kind = option.choices.empty()
-                                                       ? kinds[option.value.index()]
-                                                       : listed(option.choices, "|");
-      std::printf("   %s, %s %s%s\n", on[0].c_str(), on[1].c_str(),
-                  option.is_flag() ? ("or " + on[2] + ", " + on[3]).c_str()
-                                   : ("<" + kind + ">").c_str(),
-                  option.is_flag() || now.empty() ? "" : (", default " + now).c_str());
-      std::printf("%s", wrapped(option.help, 8).c_str());
+      if (std::find(headings.begin(), headings.end(), option.group) == headings.end())
+      {
+         headings.push_back(option.group);
+      }
+   }
+   for (const std::string &heading : headings)
+   {
+      std::printf("\n%s:\n", heading.c_str());
+      for (const Option &option : options_)
+      {
+         if (option.group != heading) { continue; }
+         static const char *const kinds[] = {"integer", "number", "", "text", "numbers"};
+         const auto &on = option.names.on;
+         const std::string now = option.text(), kind = option.choices.empty()
+                                                          ? kinds[option.value.index()]
+                                                          : listed(option.choices, "|");
+         std::printf("   %s, %s %s%s\n", on[0].c_str(), on[1].c_str(),
+                     option.is_flag() ? ("or " + on[2] + ", " + on[3]).c_str()
+                                      : ("<" + kind + ">").c_str(),
+                     option.is_flag() || now.empty() ? "" : (", default " + now).c_str());
+         std::printf("%s", wrapped(option.help, 8).c_str());
+      }
    }
 }
 
@@ -402,6 +416,28 @@ void Options::check_files() const
    }
 }
 
+void Options::echo() const
+{
+   // Those that were typed; with --verbose what all others are.
+   const Option *verbose = find("--verbose");
+   const bool all = !verbose || verbose->text() == "true";
+   if (!all && given_.empty()) { return; }
+   std::printf("Options%s:\n", all ? "" : " (--verbose prints all)");
+   for (const Option &option : options_)
+   {
+      const bool typed =
+         std::any_of(given_.begin(), given_.end(),
+                     [&](const Given &given) { return given.option == &option; });
+      const std::string text = option.text();
+      const auto &on = option.names.on;
+      if (!all && !typed) { continue; }
+      if (option.is_flag()) { std::printf("   %s\n", on[text == "true" ? 1 : 3].c_str()); }
+      else if (!text.empty()) { std::printf("   %s %s\n", on[1].c_str(), text.c_str()); }
+   }
+   std::printf("\n");
+   std::fflush(stdout);
+}
+
 void Options::parse()
 {
    read_words();
@@ -417,16 +453,7 @@ void Options::parse()
       said_.insert(given.option->names.name);
    }
    change();
-   std::printf("Options used:\n");
-   for (const Option &option : options_)
-   {
-      const std::string text = option.text();
-      const auto &on = option.names.on;
-      if (option.is_flag()) { std::printf("   %s\n", on[text == "true" ? 1 : 3].c_str()); }
-      else if (!text.empty()) { std::printf("   %s %s\n", on[1].c_str(), text.c_str()); }
-   }
-   std::printf("\n");
-   std::fflush(stdout);
+   echo();
    for (const Option &option : options_)
    {
       try

@@ -86,6 +86,8 @@ public:
    void add(std::string *value, const Names &names, const char *help,
             const std::vector<std::string> &choices);
 
+   /// Heading in -h of the options that are added from now on.
+   void group(const std::string &heading) { group_ = heading; }
    /// Case files must name this version of their form. Without a call they need not name any.
    void require_version(int version) { version_ = version; }
    /// Adds --set, which gives a place in an option another value: KEY=VALUE, with a key as in
@@ -100,8 +102,9 @@ public:
       renamed_.emplace_back(before, name);
    }
 
-   /// Sets all options and echoes those with a value; -h prints them all and leaves the program
-   /// (Leave). InputError for what is no option, and for a value or a file that cannot be used.
+   /// Sets all options and echoes those that were typed (with --verbose all); -h prints them
+   /// all and leaves the program (Leave). InputError for what is no option, and for a value or
+   /// a file that cannot be used.
    void parse();
 
    /** The words of a command that runs the same with some values changed, and without what it
@@ -132,6 +135,7 @@ private:
       Text kind = Text::word;
       std::vector<std::string> choices = {};
       bool in_cases = true;
+      std::string group = {}; ///< heading above it in -h
 
       bool is_flag() const { return std::holds_alternative<bool *>(value); }
       bool is_list() const { return std::holds_alternative<std::vector<double> *>(value); }
@@ -163,6 +167,7 @@ private:
    const Option *find(const std::string &word) const;
    void read_words();
    void print_help() const;
+   void echo() const;
    void check_files() const;
    void read(const std::string &file);
    const Option &of_case(const std::string &key, const std::string &where) const;
@@ -176,7 +181,7 @@ private:
    std::vector<Given> given_;
    std::set<std::string> said_, changed_;                     ///< long names
    std::vector<std::pair<std::string, std::string>> renamed_; ///< from and to, long names
-   std::string case_file_, set_;
+   std::string case_file_, set_, group_ = "The study";
    int version_ = 0;
    nlohmann::ordered_json values_;
 };

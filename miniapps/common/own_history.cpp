@@ -212,6 +212,7 @@ private:
 
 OwnHistory::OwnHistory(Study &study) : study_(study)
 {
+   study.options().group("The history of loads");
    study.option(&text_, "history",
                 "Load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'; default: all from "
                 "0 to 1.",
@@ -228,6 +229,7 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
                 "Times to be written besides the last one, or all (every increment).");
    study.option(&save_state_, "save-state", "File for the last state.", Text::output);
    study.option(&load_state_, "load-state", "State to go on from.", Text::input);
+   study.options().group("The study");
    for (const char *name : {"frames", "load-state"})
    {
       study.options().leave_out_of_cases(name);
@@ -503,6 +505,24 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                              {"to_y"},
                              {"from_angle", round ? "from" : "", "%.3f"},
                              {"to_angle", round ? "to (degrees)" : "", "%.3f"}});
+   // Many zones take a line an interface, without their errors.
+   const bool brief = !study_.verbose() && zones.size() > 8;
+   table.quiet(brief);
+   if (brief) { study_.say("   zones by arc length" + study_.units.of(0, 1) + ":"); }
+   for (const std::string &interface : brief ? names : std::vector<std::string>())
+   {
+      std::string line;
+      int piece = -1;
+      for (const Zone &zone : zones)
+      {
+         if (problem.chains[zone.chain].interface != interface) { continue; }
+         line += (line.empty() ? interface + ": " : ", ") + name(zone.state) +
+                 (zone.chain == piece ? "" : text(" from %.5g", zone.from.position)) +
+                 text(" to %.5g", zone.to.position);
+         piece = zone.chain;
+      }
+      std::printf("%s", wrapped(line, 3).c_str());
+   }
    for (const Zone &zone : zones)
    {
       const ContactChain &chain = problem.chains[zone.chain];
@@ -580,6 +600,9 @@ void report_critical_friction(Study &study, const ReducedProblem &problem)
    study.results["critical_friction"] = {{"node", critical.node},
                                          {"locking", critical.locking},
                                          {"unique_below", critical.unique_below}};
+   // Unasked it is told where friction comes within half of it.
+   const double near = 0.5 * std::min(critical.node, critical.locking);
+   if (!study.verbose() && problem.friction.maxCoeff() < near) { return; }
    const auto words = [](double value, const char *if_infinite)
    { return std::isfinite(value) ? text("%g", value) : if_infinite; };
    const std::string which = std::isfinite(critical.node)

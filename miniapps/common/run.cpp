@@ -278,8 +278,19 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
    ResultTable &cycles = study.table("cycles", columns);
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
    std::set<std::string> still;
+   // The first cycle, and the two in which it may be seen whether they are steady.
+   const auto whole = std::count_if(report.cycles.begin(), report.cycles.end(),
+                                    [](const CycleRecord &cycle) { return cycle.whole; });
+   const auto count = static_cast<long>(before.size()) + whole;
+   long number = 0;
+   const auto shown = [&]
+   {
+      ++number;
+      return study.verbose() || number == 1 || number > count - 2;
+   };
    for (const ordered_json &row : before)
    {
+      cycles.quiet(!shown());
       study.row(cycles, cycles.values(row));
       losses.push_back(row["dissipation"]);
    }
@@ -301,8 +312,14 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
          if (!of.moves) { still.insert(problem.patterns[k].name); }
          row.insert(row.end(), {of.work / unit, of.stiffness, of.loss_factor});
       }
+      cycles.quiet(!shown());
       study.row(cycles, row);
       losses.push_back(cycle.dissipation / unit);
+   }
+   if (count > 3 && !study.verbose())
+   {
+      study.say(text("the other %ld cycles are in --json and --csv (--verbose prints them)",
+                     count - 3));
    }
    for (const std::string &load : still)
    {

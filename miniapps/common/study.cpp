@@ -27,6 +27,7 @@ Study::Study(const std::string &name, int argc, char *argv[])
 
 void Study::parse(const char *json)
 {
+   options_.group("Results, and how they are shown");
    option(&json_, {json, "json"}, "File for the results.", Text::output);
    option(&csv_, "csv", "Prefix of CSV files of tables and figures.", Text::prefix);
    option(&plot_, "plot", "Picture of the results (png, pdf, svg).", Text::picture);
@@ -36,10 +37,12 @@ void Study::parse(const char *json)
           "Show bodies, contact, supports and loads (tables, --plot), and stop there.");
    options_.leave_out_of_cases("check");
    option(&verbose_, "verbose",
-          "At the end, how often each expensive act was done, and the kernels of OpenBLAS.");
+          "Prints all: every option, all rows of long tables, how often each expensive act was "
+          "done, the kernels of OpenBLAS.");
    options_.leave_out_of_cases("verbose");
    option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
           Text::output);
+   options_.group("Many runs");
    option(&sweep_, "sweep",
           "Runs that differ in an option, as 'friction=0.2 0.5' or 'order=1:4:4' "
           "(from:to:count), or in "
@@ -52,6 +55,7 @@ void Study::parse(const char *json)
           "numbers.");
    if (ranks() > 1)
    {
+      options_.group("Several ranks");
       option(&condensation().direct_dofs, "direct-dofs",
              "Bodies of more dofs than this are distributed and condensed by iterations, "
              "others factored by every rank.");
@@ -377,6 +381,7 @@ ordered_json Study::shown(const std::vector<Sheet> &sheets) const
            {"event", results.contains("event_loads")
                         ? event_text(results["event_time"], results["event_loads"])
                         : ""},
+           {"units", {{"length", units.of(0, 1)}, {"pressure", units.of(1, -2)}}},
            {"options", options_.values()},
            {"values", values_},
            {"tables", tables},

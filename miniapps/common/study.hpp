@@ -68,6 +68,8 @@ public:
    void parse(const char *json = "json");
    /// True if a picture is wanted.
    bool draws() const { return has_picture() || !html_.empty(); }
+   /// Is everything to be printed, and not only what most readers ask for?
+   bool verbose() const { return verbose_; }
    /// True if its panels go to a file: JSON, CSV, a picture or the page.
    bool keeps_panels() const { return !json_.empty() || !csv_.empty() || draws(); }
    bool has_picture() const { return !plot_.empty(); }

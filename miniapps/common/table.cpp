@@ -116,7 +116,7 @@ const ordered_json &ResultTable::row(const std::vector<ordered_json> &values,
 {
    cattaneo::require(values.size() == columns_.size(), "table ", name_, ": a row has ",
                      values.size(), " values for ", columns_.size(), " columns");
-   print_headings();
+   if (!quiet_) { print_headings(); }
    ordered_json row;
    std::string line;
    std::vector<std::string> &cells = printed_.emplace_back();
@@ -130,9 +130,12 @@ const ordered_json &ResultTable::row(const std::vector<ordered_json> &values,
          line += "  " + right(cells.back(), width(column) - 2);
       }
    }
-   ProgressLine::clear();
-   if (!line.empty()) { std::printf("%s\n", line.c_str()); }
-   std::fflush(stdout);
+   if (!quiet_)
+   {
+      ProgressLine::clear();
+      if (!line.empty()) { std::printf("%s\n", line.c_str()); }
+      std::fflush(stdout);
+   }
    if (!more.is_null()) { row.update(more); }
    rows_.push_back(row);
    return rows_.back();

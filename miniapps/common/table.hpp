@@ -33,6 +33,8 @@ public:
    /// (to_json()), or whatever else is not printed. `more` goes to JSON alone.
    const nlohmann::ordered_json &row(const std::vector<nlohmann::ordered_json> &values,
                                      const nlohmann::ordered_json &more = {});
+   /// Whether the rows that follow are left out on the screen; all else has them.
+   void quiet(bool yes) { quiet_ = yes; }
    /// Prints the headings, if they do not stand there.
    void print_headings();
 
@@ -67,6 +69,7 @@ private:
    std::vector<Column> columns_;
    nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
    std::vector<std::vector<std::string>> printed_;
+   bool quiet_ = false;
 };
 
 /// Of a list of objects: a column for each number and word in them, "k_n.value" of those

@@ -268,6 +268,8 @@ void JointReport::report_cycles(const MarchReport &march)
        {"slip_range", twists() ? "of mean turn" : "of mean slip" + u.of(0, 1), "%.4e"},
        {"stiffness", "secant" + u.total(twists() ? 1 : -1), "%.4e"},
        {"loss_factor", "loss factor", "%.4f"}});
+   // The last cycle alone is printed.
+   table.quiet(!study_.verbose());
    for (const ordered_json &row : study_.rows_before(table.name()))
    {
       study_.row(table, table.values(row));
@@ -290,6 +292,7 @@ void JointReport::report_cycles(const MarchReport &march)
          const double force = settled(loop.force_range(), most_force),
                       way = settled(loop.displacement_range(), most_slip);
          const bool swings = force > 0 && way > 0;
+         table.quiet(!study_.verbose() && &cycle != &march.cycles.back());
          study_.row(table,
                     {cycle.cycle, face.name,
                      cycle.node_dissipation.segment(face.first, face.nodes).sum(),
@@ -331,7 +334,8 @@ void JointReport::draw_loops()
       study_.lines("interface_loops",
                    twists() ? "Torque of each interface over its mean turn"
                             : "Shear force of each interface over its mean slip",
-                   twists() ? "mean turn" : "mean slip", twists() ? "-torque" : "-T");
+                   twists() ? "mean turn" : "mean slip" + study_.units.of(0, 1),
+                   (twists() ? "-torque" : "-T") + study_.units.total(twists() ? 1 : 0));
    for (std::size_t k = 0; k < courses_.size(); ++k)
    {
       panel.add(reduction_.interfaces[k].name, courses_[k].slip, courses_[k].shear);

@@ -321,7 +321,21 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
                    : twists ? "imbalance of axial forces over the largest force, and of torques"
                             : "imbalance of axial forces over the largest force",
                    "%.1e"}});
+   // One sentence, unless a body is out of balance by more than round-off, or its forces are
+   // not known.
+   double worst = 0;
+   bool balanced = !balances.empty();
+   for (const auto &[name, imbalance] : balances)
+   {
+      worst = std::max(worst, imbalance);
+      balanced = balanced && imbalance < 1e-8;
+   }
+   balance.quiet(!study.verbose() && balanced);
    for (const auto &[name, imbalance] : balances) { study.row(balance, {name, imbalance}); }
+   if (!study.verbose() && balanced)
+   {
+      study.say(text("\nEach body is in balance to %.1e of the largest force on it", worst));
+   }
 }
 
 } // namespace miniapp

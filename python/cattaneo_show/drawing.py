@@ -214,7 +214,7 @@ def draw_scene(axes, comments, rows):
 
 def finish(axes, comments):
     one = {key: texts[0] for key, texts in comments.items() if texts}
-    axes.set_title(one.get("title", ""), pad={"zones": 20, "plan": 34}.get(one["kind"], 6))
+    axes.set_title(one.get("title", ""), pad={"zones": 23, "plan": 34}.get(one["kind"], 6))
     axes.set_xlabel(one.get("x", ""))
     axes.set_ylabel(one.get("y", ""))
     scale = one.get("scale", "")
@@ -222,6 +222,9 @@ def finish(axes, comments):
         axes.set_xscale("log")
     if scale in ("loglog", "semilogy"):
         axes.set_yscale("log")
+    for axis, kind in (("x", axes.get_xscale()), ("y", axes.get_yscale())):
+        if kind == "linear":  # one power of ten for all ticks, which would overlap
+            axes.ticklabel_format(axis=axis, scilimits=(-2, 5), useMathText=True)
     for axis, limit in (("x", axes.set_xlim), ("y", axes.set_ylim)):
         lo, _, hi = one.get("limits " + axis, ",").partition(",")
         limit(float(lo) if lo else None, float(hi) if hi else None)

@@ -18,7 +18,8 @@ def page(run, file, figure=True):
     written."""
     run = run if isinstance(run, dict) else read(run)
     shown = run["shown"]
-    data = {"study": shown["study"], "status": run.get("status", ""), "message": run.get("message", ""), "event": shown["event"],
+    case = shown["options"].get("case") or ""
+    data = {"study": shown["study"], "title": pathlib.Path(case).name.removesuffix(".json"), "status": run.get("status", ""), "message": run.get("message", ""), "event": shown["event"], "units": shown.get("units", {"length": "", "pressure": ""}),
             "seconds": run.get("seconds"), "warnings": run.get("warnings", []), "options": shown["options"], "values": shown["values"],
             "tables": shown["tables"], "films": shown["marches"], "more_films": shown["more_marches"]}
     text = (HERE / "page.html").read_text(encoding="utf-8")

@@ -174,25 +174,45 @@ def drawn_over(keys):
     return best
 
 
+def called(key):
+    """A key as it is read: several places of a history are one load, `history.2.Q,-history.3.Q` the amplitude of Q."""
+    parts = [unquoted(piece) for piece in pieces("option --sweep", key, ",")]
+    places = [pieces("option --sweep", part.lstrip("-"), ".") for part in parts]
+    if any(len(place) != 3 or place[0] != "history" for place in places) or len({place[2] for place in places}) > 1:
+        return key
+    load = unquoted(places[0][2])
+    return f"amplitude of {load}" if any(part.startswith("-") for part in parts) else f"{load} at point {', '.join(place[1] for place in places)}"
+
+
+def scale(parts):
+    """Axes on which values of both signs, or within two decades, are linear, and others logarithmic."""
+    def wide(values):
+        return min(values) > 0 and max(values) >= 100 * min(values)
+
+    x, y = (wide([value for part in parts for value in part[axis]]) for axis in "xy")
+    return {"scale": "loglog" if x and y else "semilogx" if x else "semilogy"} if x or y else {}
+
+
 def curves(keys, points, names):
     """A panel for each result over one key; of the other keys a curve each."""
     over, panels = drawn_over(keys), []
     if over is None:
         return panels
     k = keys.index(over)
+    label = called(over["name"])
     for name, path in names.items():
         parts = {}
         for point in points:
             y = result(point.results, path)
             if not is_number(y) or not point.ended_well:
                 continue
-            series = ", ".join(f"{key['name']} = {text_of(value)}" for j, (key, value) in enumerate(zip(keys, point.values)) if j != k)
+            series = ", ".join(f"{called(key['name'])} = {text_of(value)}" for j, (key, value) in enumerate(zip(keys, point.values)) if j != k)
             part = parts.setdefault(series, {"series": series, "style": "marked", "x": [], "y": []})
             part["x"].append(float(f"{point.values[k]:.9g}"))
             part["y"].append(float(f"{y:.9g}"))
         if parts:
-            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": name, "x": over["name"], "y": name,
-                           "parts": list(parts.values())})
+            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": name, "x": label, "y": name,
+                           **scale(parts.values()), "parts": list(parts.values())})
     return panels
 
 
@@ -249,7 +269,7 @@ def sweep(plan, draws):
             counters[name] = counters.get(name, 0) + count
     run.update(sweep=table.rows, references=[], seconds=time.monotonic() - begun, counters=counters, blas_kernels=plan["blas_kernels"],
                warnings=warnings)
-    run["shown"] = {"study": plan["study"], "event": "", "options": options, "values": [], "tables": [table.printed()] if points else [],
+    run["shown"] = {"study": plan["study"], "event": "", "units": {"length": "", "pressure": ""}, "options": options, "values": [], "tables": [table.printed()] if points else [],
                     "panels": panels, "marches": [], "more_marches": 0}
     if options["verbose"]:
         print(f"\nWhat it took, {run['seconds']:.3g} s")

@@ -11,7 +11,7 @@ RUN = {
     "status": "converged", "seconds": 0.5, "warnings": ["a <b> & c"],
     "loop": [{"load": 0.0, "way": 0.0, "f": 0.2}, {"load": 1.0, "way": 2.5, "f": 0.2}, {"load": 1.0, "way": 2.0, "f": 0.4}],
     "shown": {
-        "study": "made", "event": "", "options": {"nodes": 3}, "values": [], "tables": [], "marches": [], "more_marches": 0,
+        "study": "made", "event": "", "units": {"length": " [mm]", "pressure": " [MPa]"}, "options": {"nodes": 3}, "values": [], "tables": [], "marches": [], "more_marches": 0,
         "panels": [
             {"name": "p", "kind": "lines", "title": "Pressure", "x": "x/a", "y": "p", "limits y": "0,",
              "parts": [{"series": "now", "style": "line", "x": [0, 1, 2], "y": [1, None, 3]}, {"series": "then", "style": "points", "x": [0], "y": [2]}]},
@@ -60,7 +60,7 @@ def test_a_page_holds_the_run(kept, tmp_path):
     show.page(kept, page, figure=False)
     text = page.read_text(encoding="utf-8")
     data = json.loads(re.search(r'id="run">(.*?)</script>', text, re.S)[1])
-    assert data["study"] == "made" and data["warnings"] == RUN["warnings"] and data["options"] == {"nodes": 3}
+    assert data["study"] == "made" and data["units"]["length"] == " [mm]" and data["warnings"] == RUN["warnings"] and data["options"] == {"nodes": 3}
     with pytest.raises(show.Refused, match="cannot be written"):
         show.page(kept, tmp_path / "none" / "page.html", figure=False)
 
@@ -69,3 +69,34 @@ def test_it_is_a_package_of_its_own():
     import cattaneo_show
 
     assert cattaneo.show.plot is cattaneo_show.plot
+
+
+@pytest.mark.parametrize(
+    "key, said",
+    [
+        ("friction", "friction"),
+        ("history.2.Q,-history.3.Q,history.4.Q", "amplitude of Q"),
+        ("history.1.'bolt 3, w = 1'", "bolt 3, w = 1 at point 1"),
+        ("history.1.P,history.2.Q", "history.1.P,history.2.Q"),
+    ],
+)
+def test_keys_of_a_sweep_are_read_as_loads(key, said):
+    from cattaneo_show.sweep import called
+
+    assert called(key) == said
+
+
+def test_axes_of_a_sweep_follow_their_values():
+    from cattaneo_show.sweep import curves
+
+    def drawn(values, results):
+        key = {"name": "k", "values": values}
+        points = [type("P", (), {"values": [x], "results": {"y": y}, "ended_well": True})() for x, y in zip(values, results)]
+        (panel,) = curves([key], points, {"y": ["y"]})
+        return panel.get("scale", "")
+
+    assert drawn([1.0, 2.0], [1.0, 3.0]) == ""
+    assert drawn([1.0, 200.0], [1.0, 3.0]) == "semilogx"
+    assert drawn([1.0, 2.0], [1e-3, 1.0]) == "semilogy"
+    assert drawn([1.0, 200.0], [1e-3, 1.0]) == "loglog"
+    assert drawn([-1.0, 200.0], [0.0, 1.0]) == ""

@@ -2,6 +2,7 @@
 
 import json
 import math
+import subprocess
 
 import pytest
 
@@ -772,3 +773,30 @@ def test_equals_the_square_punch(run, obstacle, domain):
     nodes = run.columns("punch_nodes.csv")
     near_relative(max(nodes["p"][:41]), other["peak_pressure"], 1e-8)
     near(nodes["slip"][40], other["slip_edge"], 1e-9)
+
+
+@pytest.mark.parametrize("name", ["bolted_joint", "bolted_joint_drawing", "pin", "dovetail", "rounded_punch", "fretting_pad", "fretting_rig", "calculix/laps"])
+def test_a_run_fits_on_a_screen(run, name):
+    """Forty lines and the warnings by default; --verbose prints more, and the results are the same."""
+    short, long = (run("contact", "--case", f"meshes/{name}.json", *more) for more in ([], ["--verbose"]))
+    printed = short.output.splitlines()
+    sentences = len(short.results["warnings"]) + len(short.results.get("notes", []))
+    assert len(printed) - sentences <= 40, short.output
+    assert len(long.output.splitlines()) > len(printed)
+    for results in (short.results, long.results):
+        for key in ("seconds", "seconds_condensation", "shown"):
+            results.pop(key)
+    assert short.results == long.results
+
+
+def test_a_case_starts_from_an_example(run):
+    """What is printed is a case that runs in any folder; names that are none are told which there are."""
+    names = ("joint", "pin", "dovetail", "pad", "punch")
+    for name in names:
+        done = subprocess.run([run.programs / "contact", "--example", name], cwd=run.folder, stdout=subprocess.PIPE, check=True, text=True)
+        case = run.write("my.json", done.stdout)
+        assert run("contact", "--case", case, "--check")["status"] == "checked"
+    wrong = subprocess.run([run.programs / "contact", "--example", "ball"], cwd=run.folder, stderr=subprocess.PIPE, check=False, text=True)
+    assert wrong.returncode == 1 and wrong.stderr.count("\n") == 1
+    assert all(word in wrong.stderr for word in ("'ball'", *names)), wrong.stderr
+    assert "--example stands alone" in run("contact", "--case", case, "--example", "pin", code=1).error

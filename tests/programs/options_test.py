@@ -75,6 +75,8 @@ def test_help_lists_them(run):
     for words in ("-P, --normal-load <number>, default 400", "-f, --friction <number>\n", "-p, --pad <hertz|flat-rounded|fe|kn>, default hertz",
                   "-ps, --plane-stress or -no-ps, --plane-strain\n", "--json <text>"):
         assert words in got.output, words
+    headings = [line for line in got.output.splitlines() if line.endswith(":") and line[:1].isupper()]
+    assert headings == ["The study:", "Results, and how they are shown:", "Many runs:"], headings
 
 
 def test_files_are_checked_before_the_work(run):

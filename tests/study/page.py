@@ -109,6 +109,14 @@ def main():
         if not browser:
             print("no chromium: the page is not opened")
             sys.exit(77)
+        # Each interface has panels of its own, with its own nodes and zones; the loop is that of the load that cycles.
+        joint = folder / "joint.html"
+        subprocess.run([programs / "contact", "--case", "meshes/bolted_joint.json", "--cycles", "1", "--html", joint], cwd=root, stdout=subprocess.DEVNULL, check=True)
+        dom = shown(browser, joint)
+        for k, name in enumerate(("faying", "under_head", "under_nut")):
+            assert f"Zones, {name}<" in dom and re.search(rf'id="pressure{f"-{k}" if k else ""}"', dom), name
+        assert "<h1 id=\"name\">bolted_joint (contact)</h1>" in dom and ">displacement (Q)<" in dom
+        assert {row[3] for row in cells(dom, "zones")} == {"faying", "under_head", "under_nut"}
         history, nodes = (list(csv.DictReader(open(folder / f"t_{table}.csv", encoding="utf-8"))) for table in ("history", "nodes"))
         seen = []
         seen.append(check(shown(browser, page), len(history), history, nodes)) # it begins at the end
