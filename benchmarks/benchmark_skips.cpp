@@ -179,7 +179,8 @@ int main()
    }
    set_friction(uncoupled, 0.3);
    ReducedProblem coupled = uncoupled;
-   // Of no consequence, but not zero, and no rigid motion meets it.
+   // Couple the bodies by so little that results do not change. Rigid motions must stay free,
+   // so their part is removed.
    Eigen::VectorXd both = Eigen::VectorXd::Zero(coupled.K.rows());
    both[0] = both[coupled.slips()] = 1;
    both -= coupled.rigid_motions * (coupled.rigid_motions.transpose() * both);

@@ -15,5 +15,5 @@ struct Focus
 std::vector<double> focused_grid(double from, double to, int order, double growth,
                                  const std::vector<Focus> &foci);
 
-/// Of grid lines from 0 on, those of both sides of 0, symmetric to the last bit.
+/// Grid lines on both sides of 0 from those that begin at 0, symmetric to the last bit.
 std::vector<double> mirrored(const std::vector<double> &grid);

@@ -45,7 +45,7 @@ class Body:
         self.mesh.set_region(self.regions[name], faces)
 
     def part(self, name, side, wanted):
-        """Of a side the edges whose middle is wanted."""
+        """Makes a region of those edges of a side whose middle is wanted."""
         faces = self.mesh.region(self.regions[side])
         ends = [self.mesh.pts(numpy.unique(self.mesh.pid_in_faces(faces[:, [k]])))[0] for k in range(faces.shape[1])]
         self.region(name, faces[:, [k for k, x in enumerate(ends) if wanted(numpy.mean(x))]])

@@ -14,11 +14,11 @@ namespace cattaneo
 class Expression
 {
 public:
-   /// Of these variables; `called`: what the text is called in messages.
+   /// Reads a formula of these variables. Messages call the text `called`.
    Expression(const std::string &called, const std::string &text,
               const std::vector<std::string> &variables);
 
-   /// Of the variables in their order; not finite where the formula is not.
+   /// The value for given variables, in their order. Not finite where the formula is not.
    double operator()(std::initializer_list<double> values) const
    {
       return value_(values.begin());

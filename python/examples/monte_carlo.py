@@ -25,7 +25,7 @@ history = cattaneo.LoadHistory.through(problem, [{}, P, {"Q": Q}, {"Q": -Q}, {"Q
 
 
 def loss(friction):
-    """Of a steady cycle."""
+    """Energy loss of a steady cycle."""
     own = problem.copy()
     own.friction = friction
     report = cattaneo.march(own, history)

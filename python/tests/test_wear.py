@@ -36,7 +36,7 @@ def history(problem, held, swept):
 
 
 def way(cycles):
-    """Of a slider since the beginning: d - f P/kt to the first turning point, four times that a cycle."""
+    """Slip path of a slider after these cycles: d - f P/kt to the first turning point, four times that in each cycle."""
     return (4 * cycles + 1) * (d - friction * P / kt)
 
 

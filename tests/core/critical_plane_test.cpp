@@ -148,8 +148,8 @@ TEST(CriticalPlane, TurnsWithTheStresses)
    }
 }
 
-// Of tension along any direction, on whichever side of the planes that are tried it lies, the
-// plane of largest normal stress has that direction as its normal.
+// Under tension along any direction the plane of largest normal stress has that direction as
+// its normal, on whichever side of the planes that are tried it lies.
 TEST(CriticalPlane, IsFoundBetweenThePlanesThatAreTried)
 {
    for (const double degrees : {30.1, 30.2, 30.3, 30.4, 120.6, 120.9})

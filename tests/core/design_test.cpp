@@ -141,9 +141,8 @@ VectorXd peaks(const DesignProblem &problem, const VectorXd &x)
 
 } // namespace
 
-// Of all profiles of a family none is better for the worse of two cases: not one of a sweep
-// over all, and not one nearby; and what the report says of its optimality holds of
-// differences.
+// No other profile of the family is better in the worse of two cases, neither in a sweep over
+// all nor nearby. Differences of marches confirm the optimality that the report states.
 TEST(Design, CrownForTwoLoadsAgainstASweep)
 {
    const DesignProblem problem = crowned_pad();

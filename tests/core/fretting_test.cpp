@@ -689,7 +689,7 @@ TEST(EdgeFit, ReportsTheNoise)
    settings.window = {0.02, 0.2};
    const EdgeFit fit = fit_edge(noisy, settings);
    EXPECT_GT(fit.k_n.relative_error, 1e-2);
-   // Of 18 nodes every other one is a tenth too high.
+   // Every other one of the 18 nodes is a tenth too high, so the mean is 1.05 times as high.
    EXPECT_NEAR(fit.k_n.value, 1.05 * std::sqrt(2.0), 0.02 * std::sqrt(2.0));
    EXPECT_LT(std::abs(fit.k_n.value / (1.05 * std::sqrt(2.0)) - 1), fit.k_n.relative_error);
    EXPECT_LT(fit.k_n.relative_error, 0.05);

@@ -388,8 +388,8 @@ TEST(Coupling, DoesNotDependOnUnitsOrOnTheBasis)
 
 TEST(Coupling, LeavesOutMotionsThatCostNothing)
 {
-   // Of a curved contact that turns in its seat: one slip and one opening in common store no
-   // energy at all, another pair shares 0.3 of it.
+   // A curved contact turns in its seat: one slip together with one opening stores no energy at
+   // all. Another pair shares 0.3 of its energy.
    const double a = 0.4, b = 1.1;
    const Eigen::Matrix2d U{{std::cos(a), -std::sin(a)}, {std::sin(a), std::cos(a)}},
       V{{std::cos(b), -std::sin(b)}, {std::sin(b), std::cos(b)}};

@@ -393,7 +393,7 @@ TEST(Wear, GoesOnFromASavedStateToTheSameBits)
    expect_input_error([] { load_wear_state("nowhere.json"); }, "nowhere.json");
    save(half.contact, file);
    expect_input_error([&] { load_wear_state(file); }, "wear state");
-   // Of bodies that are twice as stiff the same displacements have other forces.
+   // Bodies that are twice as stiff have other forces at the same displacements.
    Pad stiff = pad;
    stiff.problem.K *= 2;
    expect_input_error([&]
@@ -675,7 +675,7 @@ void compare(const cattaneo_test::WornProblem &of, const std::string &named, Jum
    else { EXPECT_NE(report.remark, "") << named; }
 }
 
-/// Of `./test --all`, or a part of it.
+/// Number of random cases: `many` in `./test --all`, else `few`.
 int rounds(int few, int many)
 {
    const char *full = std::getenv("CATTANEO_STRESS");

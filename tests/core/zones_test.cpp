@@ -395,8 +395,8 @@ void expect_border(const Sampled &s, double distance, double error, const std::s
    EXPECT_NEAR(other[1].from.error, 2 * error, 1e-9) << what;
 }
 
-// Of y(k) at k = 0, 1, 2 the least-squares line vanishes at 1 - mean/((y2 - y0)/2), the line
-// through the first two at -y0/(y1 - y0); likewise for k = 1, 2, 3.
+// The least-squares line through y(k) at k = 0, 1, 2 vanishes at 1 - mean/((y2 - y0)/2), the
+// line through the first two at -y0/(y1 - y0); likewise for k = 1, 2, 3.
 TEST(Zones, EndsOfShortZonesAreThoseOfALineThroughTheirLastNodes)
 {
    // The reserve f p - |q| of stuck nodes, by its square; the one node of slip says nothing.

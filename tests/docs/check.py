@@ -338,7 +338,7 @@ def commands_of(text):
 
 
 def listed(comment):
-    """Of a comment, which a history may also have semicolons in."""
+    """Commands in a comment. A semicolon may also be a part of a history, so only those before a command separate."""
     return [command.strip() for command in re.split(r"; *(?=\./run |python3 |rows)", comment)]
 
 

@@ -34,7 +34,7 @@ def test_loaded_twisted_and_bonded_disc_meets_the_references(run):
                "f for full adhesion, a = 4.7": (0.600, 5e-4, 0.004),
                "T_s/(p0 t³)": (17.106, 0.001, 0.004),
                "d/t without friction": (3.1705, 5e-5, READ_OUT),
-               # Of the first order in the steps, of which there are 80.
+               # The error is of first order in the steps. There are 80.
                "c/t at T/T_s = 0.3": (1.829, 0.003, READ_OUT),
                "d/t at T/T_s = 0.3": (3.617, 0.003, READ_OUT),
                "c/t at T/T_s = 0.7": (1.564, 0.003, READ_OUT),

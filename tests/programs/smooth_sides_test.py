@@ -70,7 +70,7 @@ def test_of_a_shrink_fit_have_lames_pressure(run, order):
         if most == 0:
             assert "nothing bears, and the curves may" in polygons.listed("warnings")
             continue
-        # Of the node that is wrong most, and of the largest pressure.
+        # Errors of the node with the largest error, and of the largest pressure.
         wrong = {"node": max(abs(value - LAME) for value in p) / most, "peak": 1 - LAME / most}
         for which, share in wrong.items():
             # Linear elements have errors of their own, and their peak moves from node to node.

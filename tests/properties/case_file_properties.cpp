@@ -83,7 +83,7 @@ protected:
 
    cattaneo_test::Run run(const json &j) const
    {
-      // Of the case before, which may have failed, nothing is left.
+      // The case before may have failed: remove all that it left.
       fs::remove_all(folder + "/out");
       fs::create_directories(folder + "/out");
       std::ofstream(folder + "/case.json") << j.dump(3);

@@ -75,7 +75,7 @@ def check(programs, program, options):
 
 
 def rows(file):
-    """Of a CSV file, numbers as such."""
+    """Rows of a CSV file; cells that are numbers become numbers."""
     def value(cell):
         try:
             return float(cell)

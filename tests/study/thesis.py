@@ -81,7 +81,7 @@ def main():
         row = right[0]
         assert reference == ("–" if row["reference"] is None else f"{row['reference']:.5g}"), (quantity, reference)
         assert thesis == ("–" if row["thesis"] is None else f"{row['thesis']:.4g}"), (quantity, thesis)
-        # Of a closed form, which has no ±, the mesh alone may explain what differs.
+        # A closed form has no ±, so that the mesh alone may explain a difference.
         off = row["reference"] is not None and abs(row["computed"] - row["reference"]) > (row["spread"] or 0)
         assert bool(mark) == off and (off or not row["outside"]), (quantity, mark)
         if row["reference"] is not None:

@@ -12,7 +12,7 @@
 constexpr double pi = 3.14159265358979323846;
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Of absolute value; 0 of nothing.
+/// Largest absolute value of the entries, 0 if there are none.
 double largest(const Eigen::MatrixXd &x);
 
 /// Largest entry of a - b, relative to the largest of b.
@@ -20,5 +20,5 @@ double difference(const Eigen::MatrixXd &a, const Eigen::MatrixXd &b);
 
 void expect_relative(double value, double expected, double tolerance = 1e-8);
 
-/// Of a file, which must be there.
+/// Content of a file, which must be there.
 std::string content(const std::string &file);

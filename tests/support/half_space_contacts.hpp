@@ -15,7 +15,7 @@ cattaneo::Material of_shear(double shear_modulus, double poisson);
 /// Centres of the m × m cells about a middle that lie within a radius of it.
 Places cells(int m, double edge, double radius, const Eigen::Vector2d &middle = {0, 0});
 
-/// Of squares; without another body it is rigid.
+/// A contact of square cells with these centres. Without `other` the other body is rigid.
 cattaneo::HalfSpace contact_of(const cattaneo::Material &material,
                                std::optional<cattaneo::Material> other, double edge,
                                Places centres);

@@ -371,7 +371,7 @@ TEST(Body, RefusesWhatAContactLineCannotUse)
          condense(body, contact_line(body, 1));
       },
       "the stiffness of the contact nodes is negative");
-   // Of the largest entry 1e-8 is too much, 1e-12 is round-off.
+   // An asymmetry of 1e-8 of the largest entry is too much, one of 1e-12 is round-off.
    const double largest = K.MaxNorm();
    for (const double off : {1e-8, 1e-12})
    {

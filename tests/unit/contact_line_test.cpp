@@ -234,7 +234,7 @@ TEST(ContactLine, LoopsOfUnequalEdgesRunWithTheBodyOnTheLeftWhateverTheNumbering
                EXPECT_EQ(&line.chain_of(at), &line.chains[c]);
                EXPECT_NEAR(line.nodes[at].arc_length, arc, 1e-13);
                EXPECT_NEAR(line.nodes[at].spacing, std::min(before, after), 1e-14);
-               // Of linear elements half of either edge; Simpson's of quadratic ones.
+               // Linear elements give half of either edge, quadratic ones Simpson's weights.
                const double share = order == 1 ? 0.5 : i % 2 ? 2.0 / 3 : 1.0 / 3;
                EXPECT_NEAR(line.nodes[at].weight, share * (before + after), 1e-14);
                arc += after;

@@ -122,7 +122,7 @@ TEST(CurveSides, MoveNodesOntoCircles)
          for (const Vector2d &x : along(mesh, bottom)) { EXPECT_NEAR(x.norm(), 1, 1e-13); }
          for (const Vector2d &x : along(mesh, top)) { EXPECT_NEAR(x.norm(), 2, 1e-12); }
          EXPECT_NO_THROW(check_elements(mesh));
-         // Of a ring's quarter, to what elements of that order are off circles.
+         // Area of a quarter of a ring, as exact as elements of this order follow circles.
          EXPECT_NEAR(area_of(mesh), 3 * pi / 4, order == 2 ? 1e-4 : 1e-6) << order;
       }
    }

@@ -170,7 +170,7 @@ TEST(ElementCheck, MeshesOutOfThePlaneAreNamed)
       mesh_of(square, {{0, 1, 2, 3}}, 3, 0.25),
       "of dimension 2 in space of dimension 3, both must be 2; element 0 (attribute 1, "
       "centre (0.5, 0.5)) is at z = 0.25: turn the mesh into the xy plane");
-   // Of several, the one that is the farthest out.
+   // Where several elements are out of the plane, the message names the farthest.
    mfem::Mesh slope = mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}},
                               {{0, 1, 2, 3}, {1, 4, 5, 2}}, 3, 0.25);
    slope.GetVertex(0)[2] = slope.GetVertex(3)[2] = -1.75;

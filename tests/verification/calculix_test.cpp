@@ -191,7 +191,7 @@ private:
    std::filesystem::path before_;
 };
 
-/// Of an order.
+/// Cases that are run with elements of each order.
 class CalculixElements : public Calculix, public testing::WithParamInterface<int>
 {
 };

@@ -208,7 +208,7 @@ TEST(Threshold, PointOnTheCurveIsAtTheThreshold)
 TEST(Threshold, VerdictsFollowTheCurve)
 {
    const double threshold = 66.4, critical = 0.0913, f = 0.5;
-   // Of curve A; to the right of it K_I falls at a0.
+   // Place of the minimum of curve A. To the right of it K_I falls at a0.
    const double minimum = 0.3534;
    for (const double x : {0.3 * minimum, 3 * minimum})
    {

@@ -97,7 +97,7 @@ Errors errors(int below, int above, int order, SlaveSide slave, const Material &
             {
                if (now.time == 1)
                {
-                  // Of sides that slope by 2e-3 at the edge.
+                  // Curved sides slope by up to 2e-3, at the edge.
                   EXPECT_NEAR(now.p.sum() / P, 1, curved ? 1e-6 : 1e-9);
                   found.pressure = compare(now.p, [&](double x) { return p0 * root(x, a); });
                }

@@ -18,8 +18,8 @@ class SharedMatrix
 {
 public:
    SharedMatrix() = default;
-   /// Of row i, `value[k]` in column `column[k]`, k from `start[i]` to `start[i + 1]`. The
-   /// arrays live as long as `owner`.
+   /// Row i has `value[k]` in column `column[k]`, for k from `start[i]` to `start[i + 1]` - 1.
+   /// The arrays live as long as `owner`.
    SharedMatrix(int size, const int *start, const int *column, const double *value,
                 std::shared_ptr<const void> owner);
    /// Keeps the matrix itself.

@@ -39,11 +39,12 @@ struct DesignProblem
 {
    ReducedProblem problem;        ///< of x = 0
    std::vector<DesignCase> cases; ///< at least one
-   /// Of each variable, per unit of it. No stiffness; multipliers of the histories of all cases
-   /// alike.
+   /// Change of the parameters by each variable, per unit of it. Changes of stiffness are not
+   /// allowed. Changes of multipliers apply to the histories of all cases alike.
    std::vector<Parameters> variables;
-   /// Adds a gap that depends on the variables as it likes, of each node; in `by` (n × number
-   /// of variables) its derivatives, continuous. None: the gap is linear in them.
+   /// Adds a gap (size n) that may depend on the variables in any way. It writes its
+   /// derivatives to `by` (n × number of variables); they must be continuous. Without it the
+   /// gap is linear in the variables.
    std::function<Eigen::VectorXd(const Eigen::VectorXd &x, Eigen::MatrixXd &by)> shape;
    Eigen::VectorXd low;                         ///< lower bound of each, finite
    Eigen::VectorXd high;                        ///< upper bound of each, finite
@@ -54,9 +55,10 @@ struct DesignProblem
    /// None: pressures of all nodes, so that the goal is the least peak pressure.
    DesignObjective objective;
 
-   /// Of values x of the variables. InputError of another size.
+   /// The problem with values x of the variables. InputError if x has another size.
    ReducedProblem with(const Eigen::VectorXd &x) const;
-   /// What each variable changes at these values, per unit of it. InputError of another size.
+   /// Change of the parameters by each variable at these values, per unit of it. InputError if
+   /// x has another size.
    std::vector<Parameters> changes(const Eigen::VectorXd &x) const;
    /// InputError if sizes do not fit, a bound is not finite or above the other.
    void validate() const;
@@ -99,7 +101,8 @@ const char *name(DesignStatus status);
 struct DesignSettings
 {
    MarchSettings march; ///< steady states end no cycle; its monitor watches the whole search
-   /// Of the conditions of optimality in units of the objective at the start, and of limits.
+   /// Largest error of the conditions of optimality, in units of the objective at the start,
+   /// and of the limits.
    double tolerance = 1e-8;
    int max_iterations = 300; ///< of Ipopt
 
@@ -132,7 +135,8 @@ struct DesignReport
    /// search ended without multipliers.
    double stationarity = std::nan("");
    double complementarity = std::nan(""); ///< see above
-   /// Of a limit, over what a variable of that change of the objective does to it.
+   /// Largest violation of a limit. Its unit is the most that one variable changes the limit
+   /// when it changes the objective by the objective's value at the start.
    double violation = std::nan("");
    /// Least-largest goal: the responses with multipliers above 1e-6.
    std::vector<ActiveResponse> active;

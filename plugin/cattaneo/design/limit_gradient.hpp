@@ -19,25 +19,25 @@ struct LimitGradient
    Eigen::VectorXd stiffness; ///< by each StiffnessChange
 };
 
-/** Of load_limit(). The programme's own multipliers are the mechanism {s_j; o_j} that proves
-    the upper bound, and say what each datum does to the limit (the envelope theorem; the slip v
-    is the best one):
+/** Derivatives of load_limit(). The multipliers of its programme are the mechanism {s_j; o_j}
+    that proves the upper bound. They tell how each datum changes the limit (the envelope
+    theorem; the slip v is the best one):
 
         dλ = Σ_j [ Σ_i |s_ij| p_ij df_i + s_jᵀ dq_j + o_jᵀ dp_j ],
 
-    q_j, p_j the forces at vertex j. Derivatives by the stiffness hold v, of which λ does not
-    change in first order. The relative error is about the square root of that of the limit, as
-    slip and mechanism are known so well; where there are several mechanisms derivatives are
-    one-sided, and these are one of them. A gap is one that is already closed, as that which
-    absorb_gap() has made a load of.
+    with the forces q_j, p_j at vertex j. Derivatives by the stiffness keep v, because λ does
+    not change with v in first order. The relative error is about the square root of that of the
+    limit, because slip and mechanism are known so well. Where there are several mechanisms
+    derivatives are one-sided, and these belong to one of them. Derivatives by the gap are those
+    by a gap that is already closed, which absorb_gap() has made a load.
 
     `found` is false if the limit is not known from either side. InputError for sizes that do
     not fit. */
 LimitGradient load_limit_gradient(const LimitProblem &problem, const LimitReport &limit,
                                   const std::vector<StiffnessChange> &stiffness = {});
 
-/// Of friction_limit(): the friction coefficient, the same at all nodes, that makes up for what
-/// a datum does to the work of the mechanism.
+/// Derivatives of friction_limit(): by how much the coefficient of friction, the same at all
+/// nodes, makes up for what a datum does to the work of the mechanism.
 LimitGradient friction_limit_gradient(const LimitProblem &problem, double load_factor,
                                       const LimitReport &limit,
                                       const std::vector<StiffnessChange> &stiffness = {});

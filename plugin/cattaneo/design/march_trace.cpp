@@ -79,7 +79,7 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
    trace.wear = law;
    trace.states.push_back({state.contact});
    trace.states[0].depth = state.depth;
-   // Of the cycle that is marched: its time begins anew each cycle.
+   // The history of one cycle. wear() marches cycle after cycle, and time begins anew in each.
    LoadHistory once = history;
    once.cycles = 1;
    double cycles_before = 0;

@@ -38,15 +38,15 @@ private:
    Response &add(const Response &other, double factor);
 };
 
-/// Of the sum.
+/// Value and derivatives of the sum.
 Response operator+(Response a, const Response &b);
-/// Of the difference.
+/// Value and derivatives of the difference.
 Response operator-(Response a, const Response &b);
-/// Times a factor.
+/// Value and derivatives times a factor.
 Response operator*(double factor, Response a);
-/// Of the product.
+/// Value and derivatives of the product.
 Response operator*(const Response &a, const Response &b);
-/// Of the quotient; b is not zero.
+/// Value and derivatives of the quotient; b must not be zero.
 Response operator/(const Response &a, const Response &b);
 
 /** The numbers of a trace. States are given by their index in it (MarchTrace::at(), last());
@@ -80,15 +80,15 @@ public:
    /// That of the node where it is largest (of several the first; derivatives are then
    /// one-sided).
    Response peak_pressure(std::size_t state) const;
-   /// Sums of nodal forces times given lever arms (size n; empty: 1).
+   /// Sum of q times lever arms (size n; empty: 1).
    Response shear_resultant(std::size_t state, const Eigen::VectorXd &arm = {},
                             int component = 0) const;
-   /// Of p.
+   /// Sum of p times lever arms (size n; empty: 1).
    Response normal_resultant(std::size_t state, const Eigen::VectorXd &arm = {}) const;
    /// Load multiplier of a pattern and its conjugate, see conjugates(). InputError of the
    /// latter if H is not known.
    Response multiplier(std::size_t state, const std::string &pattern) const;
-   /// Of a force its displacement, of a displacement its reaction.
+   /// Conjugate of a load: the displacement of a force, the reaction of a displacement.
    Response conjugate(std::size_t state, const std::string &pattern) const;
    /// Change of force over change of displacement of a pattern between two states, whichever of
    /// them is its multiplier. InputError if the displacement does not change.

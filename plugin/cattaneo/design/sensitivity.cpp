@@ -136,11 +136,12 @@ struct Sensitivity::System
    MatrixXd conjugates_by_stiffness(std::size_t k) const;
    /// What is added to the equation of each node's tangential row by its friction.
    VectorXd equations_by_friction(std::size_t k) const;
-   /// Of one node's number with these derivatives by its rubbing.
+   /// Visits all variables that a number of one node depends on through its slip over
+   /// increment k. `by` has the derivatives of the number.
    void visit_rubbing(std::size_t k, Index node, const RubbingDerivative &by, Variables &of,
                       const Visitor &visit) const;
-   /// Of the loss, and of the worn depth, of each node that slips over the increment and has a
-   /// weight.
+   /// The same for the loss, and for the worn depth, of each node that slips over the increment
+   /// and whose weight is not zero.
    void visit_loss(std::size_t k, const VectorXd &weights, Variables &of,
                    const std::function<Visitor(Index node)> &visitor) const;
    void visit_worn(std::size_t k, const VectorXd &weights, Variables &of,
@@ -193,7 +194,7 @@ struct Sensitivity::System
    std::vector<bool> held;
    const bool frictionless;
    std::string message;
-   // Of the states that were set last.
+   // Equations of the node states that were set last.
    MatrixXd free; ///< motions that they leave to a body; equations are then of K_held
    StateEquations *equations = nullptr;
 

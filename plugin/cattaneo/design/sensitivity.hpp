@@ -14,7 +14,8 @@ namespace cattaneo
 struct StiffnessChange
 {
    Eigen::MatrixXd K; ///< of ReducedProblem::K, symmetric
-   /// Of the forces {q; p} of each pattern, one column each; no columns: they do not change.
+   /// Change of the forces {q; p} of each pattern, one column each. No columns if they do not
+   /// change.
    Eigen::MatrixXd loads;
    Eigen::MatrixXd H; ///< of ReducedProblem::H; no rows: it does not change
 };

@@ -16,8 +16,8 @@ struct EdgeTractions
    std::vector<double> pressure; ///< traction (not nodal force), compression positive
    std::vector<double> shear; ///< fully stuck shear traction on the cracked body, positive in
                               ///< the direction of increasing position
-   /// Of the contact, from this edge to its other edge, where the tractions vanish or are
-   /// singular likewise; infinite: there is none, or it is not known.
+   /// Width of the contact, from this edge to its other edge, where the tractions vanish or
+   /// are singular likewise. Infinite if there is no other edge, or if it is not known.
    double width = std::numeric_limits<double>::infinity();
 
    /// InputError for arrays of unequal length, entries that are not finite, and a width that

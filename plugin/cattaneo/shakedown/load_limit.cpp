@@ -111,7 +111,8 @@ private:
    const bool nothing_constant_, nothing_varies_;
    const Eigen::VectorXd varying_scale_;
    ConeProgramme programme_; // of the limit
-   // Of the varying loads alone, however large: without the strengths that do not grow with p.
+   // The limit with the varying loads alone. They may be so large that the strengths which do
+   // not grow with p count for nothing, so these are left out.
    ConeProgramme alone_;
    double sliding_ = 0; // the load factor of gross sliding, its size
    ConeStart start_;

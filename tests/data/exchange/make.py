@@ -42,7 +42,7 @@ def points(kind):
 
 
 def element(x, kind, axisymmetric):
-    """Of nodes' places (nodes x 2): dofs x, y of the first node, of the second, ..."""
+    """Stiffness of an element with nodes at these places (nodes x 2). Dofs are x, y of the first node, of the second, ..."""
     D = E / (1 + NU) / (1 - 2 * NU) * np.array(
         [[1 - NU, NU, NU, 0], [NU, 1 - NU, NU, 0], [NU, NU, 1 - NU, 0], [0, 0, 0, 0.5 - NU]])
     K = np.zeros((2 * len(x), 2 * len(x)))
