@@ -30,7 +30,7 @@ std::vector<Response> pressures(const ReducedProblem &problem, const Responses &
    return all;
 }
 
-/// Times of the points of a history that a case is asked for.
+/// Times of the points of its history at which a case gives responses.
 std::vector<double> times(const DesignCase &load_case)
 {
    const LoadHistory &history = load_case.history;
@@ -78,11 +78,11 @@ void require_start(const DesignProblem &problem, const VectorXd &start, double t
            " there: start where all limits hold, or widen it");
 }
 
-/** A search with derivatives that are not those of the shape would end anywhere, and call it an
-    optimum: along each variable a short way into its bounds they are compared with its
-    differences (the mean of both ends is exact to the third order of the way). Bounds may be
-    far, and the shape bend before: shorter ways are tried as long as differences have
-    digits. */
+/** Refuses derivatives that are not those of the shape. With them the search would end anywhere
+    and call it an optimum. Along each variable the shape is moved by a short step into the
+    bounds. Its change is compared with the mean of the derivatives at both ends, which is exact
+    to the third order of the step. Bounds may be far away and the shape may bend before them,
+    so shorter steps are tried as long as round-off leaves digits. */
 void require_derivatives(const DesignProblem &problem, const VectorXd &start)
 {
    MatrixXd here, there;
@@ -111,8 +111,8 @@ void require_derivatives(const DesignProblem &problem, const VectorXd &start)
    }
 }
 
-/** From a place where all bounds and limits hold toward another, as far as they let: what
-    stops the way is followed from there on. */
+/** Goes from a point where all bounds and limits hold toward another one, as far as they let.
+    Where a limit stops it, it goes on along that limit. */
 VectorXd toward(const DesignProblem &problem, const VectorXd &start, const VectorXd &end)
 {
    const Index variables = start.size(), count = variables + problem.limits.rows();
@@ -158,8 +158,8 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
    return x.cwiseMax(problem.low).cwiseMin(problem.high);
 }
 
-/// Iterations without a better design after which none is expected: where responses bend at
-/// the optimum Ipopt looks for a smooth one until it is stopped.
+/// After so many iterations without a better design the search ends. If responses have a kink
+/// at the optimum, Ipopt would go on looking for a smooth one.
 constexpr int patience = 25;
 
 /// All that a choice of variables comes to.
@@ -326,7 +326,8 @@ bool Design::allowed(const VectorXd &x) const
           violated_limit(given_, x, settings_.tolerance) < 0;
 }
 
-/// Variables in units in which the objective at the start changes by itself.
+/// Chooses units of the variables: a change by one unit changes the objective by about its
+/// value at the start.
 void Design::find_scales(const Trial &trial)
 {
    unit_ = trial.values.cwiseAbs().maxCoeff();
@@ -342,8 +343,9 @@ void Design::find_scales(const Trial &trial)
    for (double &unit : row_unit_) { unit = unit > 0 ? unit : 1.0; }
 }
 
-/// The programme in scaled variables and, for the largest response, a bound on all of them: as
-/// it is, or with what is linear in place of it, within a radius about a trial.
+/// The programme for Ipopt in scaled variables. For the goal of the least largest response it
+/// has one more variable, which bounds all responses. With `about` responses are linear, as
+/// they are at that trial, and variables stay within a radius of it.
 SmoothProgramme Design::programme(const Trial *about, double radius)
 {
    constexpr double none = 2e19; // what Ipopt takes for infinite
@@ -421,8 +423,9 @@ VectorXd Design::y_of(const Trial &trial) const
    return y;
 }
 
-/// Linear programmes within a radius that shrinks where they promise too much: between changes
-/// of states pressures are linear in gaps and loads, and the last of them is exact.
+/// Solves linear programmes within a radius. Between changes of node states pressures are
+/// linear in gaps and loads, so the last programme is exact. The radius shrinks where a
+/// programme promises much more than a march confirms.
 SmoothSolution Design::descend()
 {
    SmoothSolution last;
@@ -508,7 +511,7 @@ void Design::check_optimality(const SmoothSolution &solution)
          ++c;
          index = 0;
       }
-      // One that is below the largest has none; none is negative.
+      // A response below the largest must have no multiplier. No multiplier may be negative.
       note(shares[i], 0, report_.objective - trial.values[i]);
       report_.stationarity = std::max(report_.stationarity, -shares[i]);
       if (shares[i] > 1e-6)
@@ -523,7 +526,8 @@ void Design::take(const SmoothSolution &solution)
    const bool solved = solution.outcome == ProgrammeOutcome::solved && !stopped();
    const VectorXd last = solved ? x_of(solution.y) : best_->x;
    const Trial &trial = at(last);
-   // What violates a limit by less than the tolerance may be better than all that does not.
+   // The last point may break a limit by less than the tolerance. It is taken if it is as good
+   // as the best point that breaks none.
    const bool kept =
       trial.known && objective(trial) <= objective(*best_) + settings_.tolerance * unit_;
    report_.x = kept ? last : best_->x;

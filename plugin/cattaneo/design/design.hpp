@@ -6,35 +6,36 @@
 namespace cattaneo
 {
 
-/// Loads that a design has to do with: a march from before any load.
+/// One case of loads of a design. It is marched from the virgin state.
 struct DesignCase
 {
    std::string name;    ///< in messages
    LoadHistory history; ///< of the problem's patterns
-   double weight = 1;   ///< of what is asked of it; negative: as much of it as possible
-   /// States at the points of the history are asked, from this time on; NaN: the last alone.
+   double weight = 1;   ///< of its responses; with a negative one they are made large
+   /// Responses are taken at the points of the history from this time on. NaN: at the last one
+   /// alone.
    double from = std::nan("");
 };
 
-/// What a case is asked, as many numbers whatever the variables: `states` are those at the
-/// points of its history that count.
+/// Computes the responses of a case. Their number must not depend on the variables. `states`
+/// are the states at the points of the history that count.
 using DesignObjective = std::function<std::vector<Response>(
    const Responses &of, const std::vector<std::size_t> &states)>;
 
-/// What is made as small as possible.
+/// The number that is made as small as possible.
 enum class DesignGoal
 {
-   least_largest, ///< of all responses of all cases, each times its case's weight
-   least_sum      ///< of these
+   least_largest, ///< the largest response of all cases, each times its case's weight
+   least_sum      ///< the sum of these
 };
 
-/** What may be chosen, and what for: variables x_j that add x_j times a change of parameters
-    (gap, friction, load multipliers) to those of the problem and its cases:
+/** The choice and its goal. Each variable x_j adds x_j times a change of parameters (gap,
+    friction, load multipliers) to those of the problem and its cases, for instance
 
-        gap = G0 + Σ x_j g_j     for instance,
+        gap = G0 + Σ x_j g_j.
 
-    or a gap of any smooth shape, between bounds, and with linear limits L x of which each has
-    its own. */
+    A gap of any smooth shape may be added. Variables lie between bounds, and linear
+    combinations L x of them between limits. */
 struct DesignProblem
 {
    ReducedProblem problem;        ///< of x = 0

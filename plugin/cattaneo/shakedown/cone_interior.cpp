@@ -402,8 +402,8 @@ ConeSolution InteriorPoints::find()
       double off = unbalanced_.size() ? unbalanced_.cwiseAbs().maxCoeff() : 0.0;
       for (const Vector3d &each : off_) { off = std::max(off, each.cwiseAbs().maxCoeff()); }
       const double left = gap(), size = 1 + std::abs(x_[0]);
-      // Round-off of the dual equations grows as the gap closes; a bound that is proven by the
-      // mechanism does not depend on it.
+      // Round-off of the dual equations grows as the gap closes, so they are only asked to hold
+      // to 1e-6. The bound that the mechanism proves does not depend on them.
       constexpr double enough = 1e-6;
       if (left <= settings_.tolerance * size && off <= settings_.tolerance &&
           dual_.cwiseAbs().maxCoeff() <= enough)
@@ -412,12 +412,14 @@ ConeSolution InteriorPoints::find()
             x_[0] > 0.99 * programme_.ceiling ? ConeOutcome::ceiling : ConeOutcome::solved;
          break;
       }
-      // 2. How far the step leads that asks for the solution itself.
+      // 2. Try Newton's step toward the solution itself, and see how much of it stays in the
+      // cones.
       if (!scale_and_factor()) { break; }
       const Step affine = direction(aim(0, nullptr));
       const double first = std::min(1.0, share(affine)), mean = left / count;
-      // 3. As near to the middle as that step was short, and corrected for its own products
-      // [Mehrotra 1992].
+      // 3. Take a step toward the central path. The shorter the first step was, the larger are
+      // the products that it aims at. It is corrected for the products of the first step's
+      // changes [Mehrotra 1992].
       const double target = std::pow(1 - first, 3) * mean;
       const Step step = direction(aim(target, &affine));
       const double length = std::min(1.0, 0.99 * share(step));

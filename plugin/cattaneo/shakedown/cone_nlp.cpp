@@ -118,7 +118,8 @@ public:
          const Eigen::Index i = k % n, j = k / n;
          const double unit = programme.force_scale[i] / programme.theta_scale;
          const double y = mechanism.limit(i, j) * unit;
-         // Stationary in π, the multiplier of its definition is what the cones press.
+         // The Lagrangian is stationary in π only if the multiplier of its definition is the
+         // sum of the openings.
          if (coupled) { lambda[i] += opening(i, j) * unit; }
          if (disc)
          {
@@ -285,7 +286,7 @@ public:
       return !settings.goes_on || settings.goes_on(iteration);
    }
 
-   /// The limit, the residual forces and the mechanism that a solution is.
+   /// The limit, the residual forces and the mechanism that a solution stands for.
    ConeSolution found(const ProgrammeSolution &point) const
    {
       ConeSolution solution;
@@ -301,7 +302,8 @@ public:
       mechanism.limit.resize(n, columns);
       for (Eigen::Index k = 0; k < cones; ++k)
       {
-         // The multipliers of the bound and of q: what each row's multiplier does to them.
+         // `limit` multiplies the bound of the cone, `slip` multiplies q. Both follow from the
+         // multipliers of the rows that contain bound and q.
          const Eigen::Index i = k % n, j = k / n;
          const double unit = programme.theta_scale / s[i];
          double by_limit;
@@ -391,7 +393,7 @@ ConeSolution run_once(const ConeProgramme &programme, const ConeSettings &settin
       solution.outcome = ConeOutcome::unavailable;
       break;
    case ProgrammeOutcome::failed:
-      // A point was returned all the same; what it proves is for the caller to find out.
+      // Ipopt returned a point all the same. The caller finds out what it proves.
       solution.outcome = ConeOutcome::failed;
    }
    return solution;
@@ -410,7 +412,9 @@ ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
    ConeSolution solution = run_once(programme, settings, start);
    const bool failed =
       solution.outcome == ConeOutcome::failed || solution.outcome == ConeOutcome::infeasible;
-   if (failed && start.mechanism.slip.size() > 0) // multipliers that led astray
+   // The multipliers of an earlier solution can lead the search astray. Without them the same
+   // programme may be solved.
+   if (failed && start.mechanism.slip.size() > 0)
    {
       const int spent = solution.iterations;
       solution = run_once(programme, settings, {start.theta, start.r, {}});

@@ -139,8 +139,8 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    }
    estimate.residual_low = (-f1 * p - q).rowwise().maxCoeff();
    estimate.residual_high = (f1 * p - q).rowwise().minCoeff();
-   // At the node that decides f1 both are equal, up to rounding; a node that is not looked at
-   // may need more than f1 and then has no range of its own: it keeps the middle.
+   // At the node that decides f1 both ends are equal, up to rounding. A node that was left out
+   // may need more than f1. Its range is then empty, and it gets the middle of both ends.
    const Eigen::VectorXd middle = 0.5 * (estimate.residual_low + estimate.residual_high);
    estimate.residual_low = estimate.residual_low.cwiseMin(middle);
    estimate.residual_high = estimate.residual_high.cwiseMax(middle);

@@ -66,8 +66,9 @@ struct LimitSettings
    /// Gap of the certificate over the limit, or over 1e-4 of the load that makes all slide.
    double tolerance = 1e-6;
    int max_iterations = 300; ///< of Ipopt, in one programme
-   /// Load factors are searched up to this multiple of (friction × normal force) / shear; where
-   /// nothing limits them there, proof is sought that nothing does, or the search goes on.
+   /// Load factors are searched up to this multiple of (friction × normal force) / shear. If
+   /// there is no limit up to there, a proof is sought that there is none, else the search goes
+   /// on.
    double largest_factor = 1e4;
    /// The smallest friction coefficient is searched up to here.
    double largest_friction = 100;
@@ -76,8 +77,8 @@ struct LimitSettings
    bool every_start = false;
    /// An earlier report of a sweep over the same contact to start from. Not owned; may be null.
    const LimitReport *start = nullptr;
-   /// Hears of every iteration (how many there will be nobody knows: its share is NaN until it
-   /// ends), and may stop it.
+   /// Called in every iteration; may stop the search. The number of iterations is not known
+   /// before, so the share that is done is NaN until the end.
    Monitor monitor;
 
    /// InputError naming the setting, its value and what is allowed.
@@ -94,10 +95,13 @@ struct LimitReport
    /// The safe side: `lower` of a load factor, infinite if it is unlimited, `upper` of a
    /// friction coefficient.
    double limit = 0;
-   /// Proven: plain arithmetic shows the slip below to be admissible, …. For an unlimited load
-   /// that is only held to round-off it is the factor up to which that holds.
+   /// Proven lower bound. For a load, plain arithmetic shows that `slip` is admissible at this
+   /// load factor. For a friction coefficient, weak duality excludes all below it. For an
+   /// unlimited load that is held to round-off only, the factor up to which that holds.
    double lower = 0;
-   double upper = 0; ///< … and weak duality no other to be (friction: the other way round)
+   /// Proven upper bound: weak duality excludes all load factors above it, or `slip` is
+   /// admissible at this friction coefficient.
+   double upper = 0;
    /// Largest (|q| - f p) / nodal force over nodes and vertices at the limit, from slip, A and
    /// B; at most 0.
    double violation = 0;

@@ -36,11 +36,11 @@ struct Held
    Eigen::VectorXd slip;
 };
 
-/** The largest load factor that is held for certain on the way from a solver's point, @a theta
-    and @a slip, to @a inside at load factor 0, or on the way continued beyond the point. A
-    point is found to lie inside to a share of typical forces only, and far beyond gross sliding
-    the round-off of the forces is more than that; as the conditions are convex, all of them
-    gain on the way to a state that meets them with room to spare. */
+/** The largest load factor that is held for certain on the line from a solver's point, @a theta
+    and @a slip, to @a inside at load factor 0. The line is also continued beyond the point. The
+    solver's point lies inside only to a share of typical forces, and far beyond gross sliding
+    round-off of the forces is more than that. The conditions are convex, so all of them gain on
+    the way to a state that meets them with room to spare. */
 Held largest_held(const ConeProgramme &programme, const ReducedProblem &problem, double theta,
                   const Eigen::VectorXd &slip, const Eigen::VectorXd &inside)
 {
@@ -53,7 +53,7 @@ Held largest_held(const ConeProgramme &programme, const ReducedProblem &problem,
       return worst_violation(programme, problem, state.theta, state.slip, Rounding::against) <=
              0;
    };
-   // The violation is convex along the way: where it is negative is one interval.
+   // The violation is convex along the line, so it is negative in one interval.
    constexpr double unit = 1e-12, furthest = 1e3;
    double good = 0, bad = 0, step = unit;
    if (admissible(0))
@@ -93,31 +93,32 @@ private:
    LimitReport finish(LimitStatus status, const std::string &message);
    /// The largest clearance under the constant loads of a programme.
    Clearance largest_clearance(const ConeProgramme &constant);
-   /// A slip in proportion to the load factor that holds the varying loads by itself holds them
-   /// however large they are: this one does, proven up to a load factor.
+   /// The report of an unlimited load. The slip `ray`, in proportion to the load factor, holds
+   /// the varying loads however large they are, which is proven up to the load factor `proven`.
    LimitReport unlimited(const Eigen::VectorXd &ray, double proven, const std::string &message);
-   /// A state under the constant loads: the stuck one, the one without their shear, or the one
-   /// furthest from all cones. How the search ends, if there is none.
+   /// Seeks a state that holds the constant loads: the stuck one, the one without their shear,
+   /// or the one furthest from all cones. If there is none, returns the report that ends the
+   /// search.
    std::optional<LimitReport> hold_constant_loads();
    void start_from_settings();
    /// The bounds that a solution of the programme proves.
    void take_bounds(ConeSolution &solution);
    void lower_the_upper(ConeMechanism mechanism);
    bool closed() const;
-   /// Does a slip in proportion to the load hold any load? How the search ends, if so, or if
-   /// what was found shows that the bounds meet.
+   /// Does a slip in proportion to the load hold any load? Returns the report that ends the
+   /// search if so, or if the mechanism that it found makes both bounds meet.
    std::optional<LimitReport> try_ray();
 
    const bool nothing_constant_, nothing_varies_;
    const Eigen::VectorXd varying_scale_;
-   ConeProgramme programme_; // of the limit
+   ConeProgramme programme_; // whose largest θ is the limit
    // The limit with the varying loads alone. They may be so large that the strengths which do
    // not grow with p count for nothing, so these are left out.
    ConeProgramme alone_;
-   double sliding_ = 0; // the load factor of gross sliding, its size
+   double sliding_ = 0; // size of the load factor of gross sliding
    ConeStart start_;
-   bool held_ = false; // the constant loads are, to round-off, by
-   Eigen::VectorXd first_slip_;
+   bool held_ = false;          // first_slip_ holds the constant loads, to round-off
+   Eigen::VectorXd first_slip_; // the slip to begin with
 };
 
 LoadLimit::LoadLimit(const ReducedProblem &reduced, const ResidualForces &residual,
@@ -212,7 +213,7 @@ std::optional<LimitReport> LoadLimit::hold_constant_loads()
       }
       if (constant.slip.size()) { take(constant.slip, constant.solution.r); }
    }
-   // Forces that touch their cones, as where there are none, do so to round-off.
+   // Nodes without force lie on the surface of their cones, to round-off.
    held_ = report_.violation <= round_off;
    first_slip_ = report_.slip;
    return std::nullopt;
@@ -227,7 +228,8 @@ void LoadLimit::start_from_settings()
    }
    start_.theta = start->limit;
    start_.r = reduced_.A() * start->slip;
-   // With laws of several pieces it is a sum over them, of which the parts are not known.
+   // With laws of several pieces the earlier mechanism is a sum over the pieces. Its parts are
+   // not known, so the search starts without it.
    if (reduced_.laws.empty() && start->mechanism.slip.cols() == loads_.vertices())
    {
       const CollapseMechanism &known = start->mechanism;
@@ -287,7 +289,7 @@ std::optional<LimitReport> LoadLimit::try_ray()
    {
       return std::nullopt;
    }
-   // It does so to round-off: up to which load factor?
+   // The slip holds any load only to round-off. Find the load factor up to which it does.
    const auto holds = [&](double factor)
    {
       return worst_violation(programme_, reduced_, factor, first_slip_ + factor * ray.slip,

@@ -66,9 +66,9 @@ private:
    int cycle_ = 0;
 };
 
-/** Do losses fall towards nothing? Three of them, as far apart as ten cycles where there are as
-    many, continued as a geometric series, leave less than half of the last one; a loss that
-    falls towards a level leaves the level. */
+/** Do losses fall towards zero? Three losses, ten cycles apart (fewer if there are not so many
+    cycles), are continued as a geometric series. The answer is yes if its limit is less than
+    half of the last loss. A loss that falls towards a level has that level as its limit. */
 bool falls_to_nothing(const std::vector<double> &loss)
 {
    const std::size_t last = loss.size() - 1, step = std::min<std::size_t>(10, last / 2);
@@ -133,7 +133,7 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
       cycle.history(load_factor, {cycle.constant}, starts_at_constant(cycle), settings.cycles);
    state.time = 0;
    state.cycle_slip.clear();
-   SlipRange slip(reduced); // of the cycle at hand
+   SlipRange slip(reduced); // of the present cycle
    CycleWay way(state);
    int cycle_now = 0;
    const auto observe = [&](const ContactState &now, const IncrementRecord &record)
@@ -143,10 +143,11 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
       else { slip.note(now); }
       cycle_now = record.cycle;
    };
-   // A march ends where slip changes little from cycle to cycle: little beside the elastic
-   // slip, however large the start is. Round-off of the start is no change.
+   // A march ends when slip changes little from cycle to cycle. Changes are compared with the
+   // elastic slip, and not with a start that may be much larger. They cannot be resolved below
+   // the round-off of the start.
    MarchSettings marching = settings.march;
-   marching.every_event = true; // the range of slip is reached at one of them
+   marching.every_event = true; // slip is largest and smallest at events
    const double begun = start.lpNorm<Eigen::Infinity>();
    if (begun > report.elastic_slip && report.elastic_slip > 0)
    {
@@ -185,20 +186,21 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    const double scale = std::max(report.dissipation[0], report.energy);
    const double little = settings.shaken_down * scale, none = nothing * scale;
    const std::size_t cycles = loss.size();
-   // A steady state of period two loses and slips little in one of its cycles only.
+   // In a steady state of period two one of both cycles may lose and slip little, so the larger
+   // values count.
    const bool alike = marched.steady_period == 1 || cycles < 2;
    const double last = alike ? loss.back() : std::max(loss.back(), loss[cycles - 2]);
    report.cycle_slip = alike ? way.last() : way.of_two();
    Eigen::VectorXd closed_slip = report.cycle_slip;
    closed_slip(report.opened).setZero();
    const double slips = nothing * report.elastic_slip;
-   // Nodes that open and bear again do what the limit knows nothing of.
+   // The limit says nothing about nodes that open, so their slip is judged apart.
    const double opened_slip =
       report.opened.empty() ? 0 : report.cycle_slip(report.opened).maxCoeff();
    bool opened_moves = report.opened_loss > none || opened_slip > slips;
    if (solved(marched.status))
    {
-      // Two cycles together where each other one alone is alike.
+      // With period two compare sums over two cycles.
       std::vector<double> periods = loss;
       for (std::size_t i = cycles - 1; marched.steady_period == 2 && i > 0; --i)
       {
@@ -206,12 +208,13 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
       }
       if (marched.steady_period == 2) { periods.erase(periods.begin()); }
       const bool falls = falls_to_nothing(periods);
-      // A slip that still falls geometrically is not steady, though it changes little.
+      // Slip whose loss still falls geometrically is not steady, even if it changes little.
       const bool steady = marched.steady_cycle > 0 && !falls;
       if (steady) { opened_moves = opened_slip > slips; }
       const bool goes_on =
          steady ? closed_slip.maxCoeff() > slips : last > little || !(falls || last <= none);
-      // Above the limit slip ends nowhere but at nodes that open, however little they move.
+      // Above the upper limit slip at nodes that stay closed never ends. If it seems to have
+      // ended, the nodes that open account for it, however little they move.
       const bool forbidden = load_factor > settings.upper;
       opened_moves = opened_moves || (forbidden && !report.opened.empty());
       if (goes_on && steady) { report.verdict = TransientVerdict::cyclic_slip; }

@@ -28,9 +28,12 @@ WearCycles::WearCycles(const ReducedProblem &problem, const WearLaw &law,
      history_(history), start_(history.times[history.cycle_start]), watch_(watch)
 {
    history_.cycles = 1;
-   settings_.monitor.progress = {}; // of all of them it is another's; each may be stopped
+   // wear() reports the progress of all cycles, so a single one reports none. Each may be
+   // stopped.
+   settings_.monitor.progress = {};
    settings_.keep_increments = false;
-   settings_.every_event = true; // between two of them the path is straight
+   // Slip and forces are straight lines between two events, so that wear can be summed exactly.
+   settings_.every_event = true;
    counters += solver_.counters();
 }
 
@@ -54,7 +57,7 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
                                  ? VectorXd(law_.threshold.cwiseProduct(problem_.weights))
                                  : VectorXd::Zero(n);
    VectorXd way = VectorXd::Zero(n), along = way, in_time = way, worn_off = way, lost = way;
-   VectorXd way_over = way, along_over = way; // where it wears
+   VectorXd way_over = way, along_over = way; // where the force is above the threshold
    double duration = 0;
    const auto note = [&](const ContactState &after, const IncrementRecord &record)
    {
@@ -65,8 +68,8 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       lost += frictional_loss(worn, before, after);
       cycle.opening = cycle.opening.cwiseMin((after.w + worn.gap).cwiseMax(0.0));
       cycle.range.note(after);
-      // The way of a node that bears: where it is lifted off, wear takes no pressure from it,
-      // and a node that has just lifted off has one of round-off over all of its way.
+      // Only slip under pressure counts. A node that is lifted off does not wear, and one that
+      // has just lifted off still has a pressure of round-off over its whole motion.
       const VectorXd slid = (p.array() > 1e-12 * after.peak_force).select(rub.way, 0);
       way += slid;
       along += p.cwiseProduct(slid);
@@ -78,8 +81,8 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       before = after;
    };
    cycle.report = cattaneo::march(solver_, part, contact, settings_, note);
-   // Where no node slips under pressure by more than a solver's tolerance, a hundredth of
-   // least_slip(), or slips as good as without a force, nothing wears however often it comes.
+   // If no node slips under a real pressure by more than a solver's tolerance (a hundredth of
+   // least_slip()), nothing wears, however many such cycles follow.
    const VectorXd least = 0.01 * least_slip(worn, contact);
    if ((way.array() > least.array() &&
         along.array() > 0.01 * contact.peak_force * least.array())
@@ -90,7 +93,8 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
    }
    for (Index i = 0; i < n; ++i)
    {
-      // Wear ends at the threshold: what lies above it is the force that wear takes away.
+      // Wear takes away the force above the threshold. A node that never exceeds the threshold
+      // has its mean force along its slip, one that does not slip its mean force in time.
       cycle.force[i] = along_over[i] > 0 ? along_over[i] / way_over[i]
                        : along[i] > 0    ? along[i] / way[i]
                        : duration > 0    ? in_time[i] / duration

@@ -129,9 +129,9 @@ struct Landing
 {
    Way way;
    Taken taken;
-   double bend = 0;   ///< how far results of other parts are apart
-   double error = 0;  ///< of depth, of this jump alone
-   double unseen = 0; ///< of it, what shorter jumps may have as well
+   double bend = 0;   ///< difference of the results of one, two and three parts
+   double error = 0;  ///< error of depth by this jump alone
+   double unseen = 0; ///< the part of this error that shorter jumps may share
 };
 
 /// A record that is not yet given to the observer.
@@ -197,20 +197,21 @@ private:
    ProgressReport progress_;
    WearReport report_;
 
-   Way fine_, coarse_;      // the way that is handed out, and the one with longer jumps
-   bool paired_ = false;    // both are other ways since the first jump
-   double apart_ = 0;       // largest distance between both so far
-   double unseen_ = 0;      // error that both may have alike
-   double single_ = 0;      // errors of the jumps on the fine way, each by itself
-   double local_ = 0;       // of the longer jumps
-   Noticed noticed_;        // on the fine way
-   std::vector<Kept> kept_; // since the first jump
+   Way fine_, coarse_;      // the computation that is returned, and the one with longer jumps
+   bool paired_ = false;    // both differ, because jumps have been made
+   double apart_ = 0;       // largest difference of depth between both so far
+   double unseen_ = 0;      // error that both may share
+   double single_ = 0;      // sum of the errors of the fine computation's jumps
+   double local_ = 0;       // the same for the longer jumps
+   Noticed noticed_;        // in the fine computation
+   std::vector<Kept> kept_; // records since the first jump
 
    double step_ = 2 * least_jump; // cycles of the next long jump
-   double rest_ = 0;              // no jump is tried before this cycle,
-   double patience_ = least_jump; // which is so many on
+   double rest_ = 0;              // no jump is tried before this cycle
+   double patience_ = least_jump; // cycles without a jump after the next jump that fails
 
-   // Where both ways part, and how often they were gone from there.
+   // Both computations begin at this state. If their error exceeds the tolerance they begin
+   // again from it, with shorter jumps.
    Way fork_;
    Noticed noticed_at_fork_;
    long marched_at_fork_ = 0;
@@ -240,7 +241,9 @@ bool WearMarch::fails(const WearCycle &cycle)
 WearState WearMarch::settled(const Way &way)
 {
    WearState state = way.state;
-   state.contact.dissipation = state.dissipation.sum(); // not that of cycles that only look
+   // The contact has also marched cycles that only look where a jump leads. Their energy does
+   // not count.
+   state.contact.dissipation = state.dissipation.sum();
    if (way.jumped) { return state; }
    ContactState contact = state.contact;
    if (!cycles_.settle(contact, state.depth))

@@ -44,15 +44,15 @@ enum class GapUpdate
 /// How a contact is worn. The defaults march every cycle.
 struct WearSettings
 {
-   MarchSettings march; ///< of each cycle; its monitor watches all of them and is asked between
-                        ///< two; steady states of slip end nothing
+   MarchSettings march; ///< of each cycle. Its monitor watches the whole computation and is
+                        ///< asked between two cycles. A steady state of slip does not end it
    GapUpdate update = GapUpdate::cycle; ///< when the gap follows
    /** Largest estimated error of depths by jumps over cycles, at each cycle that has a record,
        as a share of the largest depth (see WearReport::error). 0: every cycle is marched, as
        with GapUpdate::piece. Allowed: from 1e-8 to 0.1. */
    double tolerance = 0;
-   /// Whether the observer hears of what was marched or jumped over, between two numbers of
-   /// cycles; empty: of all.
+   /// Is the observer called for what was marched or jumped over between these two numbers of
+   /// cycles? Empty: always.
    std::function<bool(double from, double to)> observed;
    /// Final: a cycle adds less than this share of the largest depth so far; the march ends.
    /// 0: it goes on.
@@ -115,12 +115,12 @@ struct WearReport
    double seconds = 0; ///< wall time
 };
 
-/// Called after every cycle that was marched and every jump, as WearSettings::observed says; of
-/// jumps when their error is known.
+/// Called after every marched cycle and every jump that WearSettings::observed asks for. Jumps
+/// are handed over when their error is known.
 using WearObserver = std::function<void(const WearState &, const WearRecord &)>;
 
-/// Called after every increment that is marched, with the depth that its gap had: also those of
-/// cycles that only look where a jump leads.
+/// Called after every marched increment, with the worn depth in its gap. This includes cycles
+/// that are marched only to see where a jump leads.
 using WornIncrementObserver = std::function<void(const ContactState &, const IncrementRecord &,
                                                  const Eigen::VectorXd &depth)>;
 

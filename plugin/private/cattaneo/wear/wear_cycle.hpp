@@ -11,8 +11,9 @@ struct WearCycle
 {
    Eigen::VectorXd depth; ///< that it loses
    Eigen::VectorXd loss;  ///< energy that friction takes
-   /// Mean nodal force along its slip, less that of the threshold, where it is above that;
-   /// along its slip while it bears if it is nowhere; of a node that does not slip, in time.
+   /// Nodal force that wear can take away: the mean along its slip of the force above the
+   /// threshold. A node that never exceeds the threshold has its mean force along its slip, and
+   /// a node that does not slip its mean force in time.
    Eigen::VectorXd force;
    Eigen::VectorXd opening; ///< least opening, 0 if it bears at all
    double negligible = 0;   ///< depth that round-off may wear
