@@ -83,8 +83,8 @@ private:
    }
 };
 
-/// Element matrices, nodes × nodes a block: block[c][d] is of component c of the row's node and
-/// d of the column's.
+/// Matrices of an element. block[c][d] (nodes × nodes) couples component c of the row's node to
+/// component d of the column's node.
 class Elements
 {
 public:
@@ -141,7 +141,8 @@ private:
    MatrixXd weighted_;
    MatrixXd xx_, xy_, yy_, xh_, hy_, hh_; // integrals of their products, first by second
 
-   /// The blocks are linear in λ and μ: those of the integrals with λ, and with μ.
+   /// Blocks of a material that varies within the element. They are linear in λ and μ, so one
+   /// pass integrates with λ as a weight and a second one with μ.
    void vary(const mfem::FiniteElement &element, const ReferenceElement &reference,
              const Eigen::Map<const MatrixXd> &corners)
    {
@@ -187,13 +188,13 @@ private:
       block[1][0] = block[0][1].transpose();
    }
 
-   /// To the last bit, whatever the order of the sums.
+   /// Makes a block symmetric to the last bit, whatever the order of its sums.
    static void mirror(MatrixXd &symmetric)
    {
       symmetric.triangularView<Eigen::StrictlyUpper>() = symmetric.transpose();
    }
 
-   /// The mapping is linear to the round-off of the coordinates.
+   /// Is the mapping of the element linear, to the round-off of the coordinates?
    bool affine(const Eigen::Map<const MatrixXd> &corners) const
    {
       const double round_off =
@@ -226,7 +227,8 @@ private:
             (a * c / area) * eta;
    }
 
-   /// `weights`: of the points, before they are mapped.
+   /// Integrates the products of gradients. `weights` are those of the points on the reference
+   /// element.
    void integrate(const ReferenceElement &reference, const Eigen::Map<const MatrixXd> &corners,
                   const VectorXd &weights)
    {
@@ -278,7 +280,7 @@ std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &sp
    require(entries <= static_cast<std::size_t>(most), "elastic body: the stiffness of ", nodes,
            " nodes has ", entries, " entries, must have at most ", most,
            ": take fewer elements, or share the mesh between several ranks");
-   // Owned by the matrix.
+   // The matrix takes these arrays over and frees them.
    int *I = new int[size + 1], *J = new int[entries];
    double *data = new double[entries];
    std::fill(data, data + entries, 0.0);

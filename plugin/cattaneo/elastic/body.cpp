@@ -25,13 +25,13 @@ void check_mesh(mfem::Mesh &mesh)
    check_elements(mesh);
 }
 
-/// 1 if there is none.
+/// Largest element attribute of the mesh, 1 if it has no elements (on this rank).
 int largest_attribute(const mfem::Mesh &mesh)
 {
    return std::max(1, mesh.attributes.Size() ? mesh.attributes.Max() : 1);
 }
 
-/// InputError if an entry is not finite.
+/// Largest absolute value of an entry. InputError if an entry is not finite.
 double largest_entry(const mfem::SparseMatrix &K)
 {
    double largest = 0.0;
@@ -215,7 +215,7 @@ void ElasticBody::adopt_space()
 #endif
       if (const mfem::SparseMatrix *restriction = space.GetConformingRestriction())
    {
-      // True dofs are those nodes that hang on no others: each row has one entry.
+      // A true dof belongs to a node that depends on no others. Its row has one entry.
       const int *I = restriction->GetI(), *J = restriction->GetJ();
       for (int t = 0; t < restriction->Height(); ++t) { vdof_to_true_[J[I[t]]] = t; }
    }
@@ -256,7 +256,7 @@ void ElasticBody::adopt_space()
 void ElasticBody::hold_axis()
 {
    if (formulation_ == Formulation::plane) { return; }
-   // Round-off of the coordinates.
+   // A node is on the axis if its radius is round-off of the largest coordinate.
    for (int node = 0; node < space_->GetNDofs(); ++node)
    {
       axis_radius_ = std::max(axis_radius_, 1e-12 * std::abs(coordinates_(0, node)));
@@ -267,7 +267,8 @@ void ElasticBody::hold_axis()
       if (on_axis(node))
       {
          const int dof = true_dof(node, 0);
-         // u_θ = r ψ vanishes there by itself.
+         // u_r must vanish on the axis. A torsion body needs no support there: u_θ = r ψ
+         // vanishes by itself.
          if (formulation_ == Formulation::axisymmetric && dof >= 0) { essential_[dof] = true; }
          continue;
       }
@@ -329,7 +330,7 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
    mfem::Mesh &mesh = *space_->GetMesh();
    std::vector<int> nodes;
    mfem::Array<int> dofs;
-   bool turns = true; // but for what lies on the axis
+   bool turns = true; // is any of the part off the axis?
    for (int i : boundary_elements(mesh, part, where))
    {
       BoundaryEdge edge(mesh, i);
@@ -400,7 +401,7 @@ void ElasticBody::fix_node(double x, double y, int component)
          nearest = node;
       }
    }
-   // The first of the ranks that have a node as near.
+   // Several ranks may have a node at this distance. The first of them takes it.
    const std::vector<double> distances = ranks_.gather({distance});
    const auto first = std::min_element(distances.begin(), distances.end());
    const bool moves = formulation_ != Formulation::torsion || nearest < 0 || !on_axis(nearest);

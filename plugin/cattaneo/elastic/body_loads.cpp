@@ -67,12 +67,13 @@ void ElasticBody::add_forces(const std::string &pattern, const mfem::LinearForm 
    require(form.FESpace() == space_, "forces '", pattern,
            "': the linear form is on a space of ", form.Size(),
            " dofs that is not the body's, must be on ElasticBody::space()");
-   // A pattern without integrals may have been filled by hand.
+   // A form that has integrators and is zero was never assembled. One without integrators may
+   // have been filled by hand.
    auto &parts = const_cast<mfem::LinearForm &>(form);
    const int integrators = parts.GetDLFI()->Size() + parts.GetBLFI()->Size() +
                            parts.GetFLFI()->Size() + parts.GetDLFI_Delta()->Size();
-   // Nor does MFEM set the entries of a new form: what is left of pointers there is less than
-   // any number is.
+   // MFEM does not set the entries of a new form. Its memory may hold old pointers, which read
+   // as numbers below the smallest normal one, so such numbers count as zero.
    const bool filled = form.Normlinf() > std::numeric_limits<double>::min();
    require(integrators == 0 || ranks_.any(filled), "forces '", pattern,
            "': the linear form has ", integrators,
@@ -157,7 +158,8 @@ void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &p
                      [&p](BoundaryEdge &edge, double s, const std::string &where)
                      {
                         const Eigen::Vector2d d = edge.derivative(s);
-                        // Left of the direction with the body on the left, of length ds.
+                        // With the body on the left the inward normal is the tangent turned
+                        // left, and its length is that of the derivative.
                         const double value =
                            (edge.body_on_left() ? 1.0 : -1.0) * p.at(edge.at(s), where);
                         return Eigen::Vector2d(-d[1] * value, d[0] * value);

@@ -64,9 +64,9 @@ Eigen::Vector2d BoundaryEdge::tangent(double s)
 
 const mfem::IntegrationRule &BoundaryEdge::rule(int order) const
 {
-   // A straight edge: shape function times load (degree 12 exactly). A curved one: the length
-   // of the derivative is no polynomial, so take plenty; this is a sum over boundary points
-   // only.
+   // On a straight edge the rule is exact for a shape function times a load of degree 12. On a
+   // curved one the length of the derivative is no polynomial, so many points are taken. That
+   // is cheap, because the sum is over the boundary only.
    const int g = degree();
    return mfem::IntRules.Get(mfem::Geometry::SEGMENT,
                              g == 1 ? order + 12 : std::min(2 * order + 4 * g + 12, 60));
@@ -75,8 +75,8 @@ const mfem::IntegrationRule &BoundaryEdge::rule(int order) const
 std::vector<std::array<double, 2>> BoundaryEdge::pieces(const BoundaryPart &part)
 {
    const auto coordinate = [&](double s) { return point(s)[part.axis]; };
-   // Cuts at the ends of the interval: between samples dense enough to separate the turning
-   // points of the curve.
+   // Find where the curve crosses the ends of the interval. Samples are so dense that there is
+   // at most one turning point between two of them.
    const int samples = degree() == 1 ? 1 : 4 * degree();
    std::vector<double> cuts{0.0, 1.0};
    for (double bound : {part.lo, part.hi})

@@ -17,7 +17,7 @@ Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement
       mfem::Vector x(2), u(2);
       transformation.Transform(transformation.GetIntPoint(), x);
       displacement.GetVectorValue(transformation, transformation.GetIntPoint(), u);
-      // Round-off of u_r over a tiny radius would be no strain.
+      // Very near the axis u_r / r is round-off over a tiny radius. Take its limit there.
       const double size = std::sqrt(std::abs(transformation.Weight()));
       strain.zz = x(0) > 1e-9 * size ? u(0) / x(0) : gradient(0, 0);
    }

@@ -13,7 +13,8 @@ namespace cattaneo
 namespace
 {
 
-/// The node nearest to a point far off is none that was meant.
+/// Refuses a point far outside the body, because the nearest node is not the one that the user
+/// meant.
 void check_point(const ElasticBody &body, const std::string &where, double x, double y)
 {
    const Eigen::AlignedBox2d box = body.box();
@@ -23,7 +24,8 @@ void check_point(const ElasticBody &body, const std::string &where, double x, do
            " is outside of the body, which reaches from ", box.min(), " to ", box.max());
 }
 
-/// Components that a body of the formulation has: about an axis it may leave them to another.
+/// Those of the named components that a body of this formulation has. About an axis r and z
+/// belong to the axisymmetric body and t to the torsion body, so the result may be empty.
 std::vector<int> components(const std::string &where, const std::string &text,
                             Formulation formulation)
 {

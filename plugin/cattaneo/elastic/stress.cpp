@@ -12,7 +12,8 @@ double Stress::von_mises() const
 
 Stress stress(const Material &material, const Strain &strain)
 {
-   const bool plane = material.state == PlaneState::stress; // what it strains across is its own
+   // In plane stress λ is already the one for free strain across the plane.
+   const bool plane = material.state == PlaneState::stress;
    const double mu = material.mu(), spherical = material.lambda() * (strain.xx + strain.yy +
                                                                      (plane ? 0 : strain.zz));
    return {spherical + 2 * mu * strain.xx, spherical + 2 * mu * strain.yy,

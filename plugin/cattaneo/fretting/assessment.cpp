@@ -11,8 +11,8 @@ namespace cattaneo::fretting
 namespace
 {
 
-/// Small against 1 if below 0.1, no longer if above 0.25: a Hertz contact's slip zone is then 5
-/// % and 15 % longer than the near-edge one.
+/// How small a ratio of lengths is. At a ratio of 0.1 the slip zone of a Hertz contact is 5 %
+/// longer than the near-edge field predicts, at 0.25 it is 15 % longer.
 Trust smallness(double ratio)
 {
    return ratio < 0.1 ? Trust::good : ratio < 0.25 ? Trust::caution : Trust::poor;

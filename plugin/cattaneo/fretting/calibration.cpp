@@ -13,8 +13,8 @@ double load_integral(double b, double s)
 {
    const double a = b + s, B = std::sqrt(s * (s + 2 * b));
    if (B > 0.1 * b) { return a * a * std::atan2(B, b) - b * B; }
-   // Both terms are nearly b·B for a light load; b²((1+τ²) arctan τ - τ) as a series in τ =
-   // B/b.
+   // For a light load both terms are nearly b·B and would cancel. Then take the series of
+   // b² ((1+τ²) arctan τ - τ) in τ = B/b.
    const double tau = B / b;
    double sum = 0, power = tau;
    for (int k = 1; k < 10; k++)

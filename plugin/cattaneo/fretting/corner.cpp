@@ -43,7 +43,8 @@ struct Solution
    double largest() const { return *std::max_element(error.begin(), error.end()); }
 };
 
-/// Pressure and shear of the samples are over r^{λ_I-1}.
+/// Fits the modes to the samples from `first` to `last`. Pressure and shear of the samples are
+/// divided by r^{λ_I-1}.
 Solution fit(const std::vector<EdgeSample> &samples, std::size_t first, std::size_t last,
              const std::vector<CornerMode> &modes)
 {

@@ -40,7 +40,8 @@ void predict(const MarchedStates &states, const ContactEdge *before,
                                       ", is shorter than two spacings of the nodes (", spacing,
                                       "), the computed one is not"));
    }
-   // A fit that its own next term changes by a tenth has not found the square root.
+   // If the next term of the expansion changes the fit by more than a tenth, the nodes are too
+   // few or too far from the edge for the square root.
    if (std::max(edge.k_n.relative_error, edge.k_t.relative_error) > 0.1 && d > 0)
    {
       solved.notes.push_back("the fit is uncertain: refine the contact near its edge");
@@ -49,8 +50,8 @@ void predict(const MarchedStates &states, const ContactEdge *before,
    if (before)
    {
       solved.travel = edge.position.position - before->position.position;
-      // The slip zone's length follows from the pressure at its root: a tenth is what the
-      // fields can bear.
+      // The predictions take K_N as constant, so the edge must not move. A tenth of the slip
+      // zone is tolerated.
       if (std::abs(solved.travel) > 0.1 * d)
       {
          solved.notes.push_back(
@@ -108,7 +109,8 @@ try
       : states.opposite == &states.pressed
          ? before
          : contact_edges(states.problem, states.pressed, *states.opposite, states.cracked);
-   // Edges correspond while no stretch of contact is born or dies.
+   // Edges of two states correspond one to one only if both have the same number. Otherwise a
+   // stretch of contact has appeared or vanished, and nothing is compared.
    const auto like = [&](const std::vector<ContactEdge> &all, std::size_t e)
    { return all.size() == edges.size() ? &all[e] : nullptr; };
    EdgeReport report;

@@ -24,7 +24,7 @@ EnergyComparison compare_energy(const ReducedProblem &problem, const ContactEdge
    EnergyComparison result;
    result.predicted_total = slip_energy_total(near_edge(edge), k_t_range, modulus);
    result.predicted_max = slip_energy_max(k_t_range, modulus);
-   // Beyond the edge lies what is in contact, and rubs, at other times of the cycle.
+   // Nodes beyond the edge may be in contact, and lose energy, at other times of the cycle.
    Index first = edge.first, last = edge.last;
    const auto rubs = [&](Index i)
    { return i >= 0 && i < problem.nodes() && cycle.node_dissipation[i] != 0; };

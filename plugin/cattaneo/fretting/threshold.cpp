@@ -82,7 +82,8 @@ ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, dou
    const double ratio = 1.02;
    if (excess(critical) <= 0)
    {
-      // Walk down to the depth from which growth stopped; 0 if the crack never starts.
+      // The crack has stopped before the critical length. Go to shorter cracks until one grows:
+      // growth stops between this length and the next one. If none grows the depth is 0.
       double depth = critical;
       while (depth > 1e-6 * critical && excess(depth) <= 0) { depth /= ratio; }
       report.arrest_depth =
@@ -117,8 +118,9 @@ double threshold_ordinate(Criterion criterion, double friction, double abscissa,
    const auto range = [&](double level) { return fx / invert_factor(level / fx); };
    if (criterion == Criterion::range) { return range(0.5); }
    if (criterion == Criterion::half_range) { return range(1.0); }
-   // Open part: all of the range if the crack stays open, else the part above zero; the
-   // smaller.
+   // Only the open part of the cycle drives the crack. It is the whole range if the crack never
+   // closes, else the part above zero. The larger of both ordinates belongs to the smaller
+   // drive.
    const double peak = 0.5 * (1 - stress_ratio) * range(1 + crack_closing_factor() * abscissa);
    return std::max(peak, range(0.5));
 }

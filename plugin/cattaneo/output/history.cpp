@@ -65,7 +65,8 @@ std::string history_row(const IncrementRecord &record, double lost, Eigen::Index
    return out.str();
 }
 
-/// A row begins with time and cycle, then come the multipliers.
+/// Refuses to continue a file whose last row does not have the time and the multipliers of the
+/// state. A row begins with time and cycle, then come the multipliers.
 void check_goes_on(const std::string &file, const std::string &last, const ContactState &from)
 {
    std::vector<double> row;
@@ -107,7 +108,7 @@ void HistoryWriter::add(const ContactState &state, const IncrementRecord &record
 namespace
 {
 
-/// How many of other names than the one before them.
+/// Number of interfaces. Chains of one interface follow each other.
 int interfaces(const ReducedProblem &problem)
 {
    int count = 0;
@@ -136,7 +137,7 @@ std::string node_rows(const ReducedProblem &problem, const ContactState &state)
    state.validate(problem);
    const Eigen::Index n = problem.nodes();
    const Eigen::VectorXd p = tractions(problem, state.p);
-   // Without tangential components: zeros in one column.
+   // A problem without tangential components gets one column of zeros.
    const Eigen::Index columns = std::max<Eigen::Index>(problem.components(), 1);
    Eigen::MatrixXd q = Eigen::MatrixXd::Zero(n, columns), slip = q;
    for (Eigen::Index k = 0; k < problem.components(); ++k)

@@ -281,7 +281,7 @@ void ReductionFields::write(const ContactState &state)
    }
    for (std::size_t k = 0; k < bodies_.size(); ++k)
    {
-      // A body that every rank has for itself is written by one.
+      // Where every rank has the whole body, only the first one writes it.
       if (!first && !bodies_[k]->ranks().several()) { continue; }
       fields_[k]->write(
          reduction_.displacement(static_cast<int>(k), state.v, state.w, state.multipliers),
