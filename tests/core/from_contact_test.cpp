@@ -755,7 +755,7 @@ TEST(EdgeReport, OfAHertzContactHasTheClosedFormsOfItsCycle)
    states.opposite = &solved.pressed; // half the cycle, as far as it is told
    EXPECT_NEAR(read_edges(states).edges[0].k_t_range, k_t, 0.01 * k_t);
    states.opposite = nullptr;
-   EXPECT_TRUE(notes_say(read_edges(states).edges[0], "no like at the other end"));
+   EXPECT_TRUE(notes_say(read_edges(states).edges[0], "no edge at the other end"));
 }
 
 TEST(EdgeReport, SaysWhatIsNotToBeTrusted)

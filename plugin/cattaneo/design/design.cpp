@@ -751,8 +751,8 @@ void DesignProblem::validate() const
    require(limits.allFinite(), "design: an entry of the limits is not finite");
    for (Index r = 0; r < limits.rows(); ++r)
    {
-      require(least[r] <= most[r], "design: limit ", r, " is at least ", least[r],
-              " and at most ", most[r]);
+      require(least[r] <= most[r], "design: limit ", r, " is from ", least[r], " to ", most[r],
+              ", its lower value must not be above the upper one");
    }
    for (const DesignCase &load_case : cases)
    {

@@ -52,7 +52,7 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
    };
    trace.report = march(problem, history, state, every, observe);
    require(trace.report.taken_up_clearance == 0,
-           "trace of march: what is free touches nothing at rest, and was moved by ",
+           "trace of march: a free body touches nothing at rest, and was moved by ",
            trace.report.taken_up_clearance,
            " before the march, which has no derivatives: it must touch, or be held");
    return trace;

@@ -30,7 +30,7 @@ Response &Response::operator*=(double factor)
 Response &Response::add(const Response &other, double factor)
 {
    require(trace == 0 || other.trace == 0 || trace == other.trace,
-           "response: it is of another march than the one that it is combined with");
+           "response: it is of another march than the other one, both must be of one trace");
    trace = std::max(trace, other.trace);
    value += factor * other.value;
    for (const auto &[k, weight] : other.weights)

@@ -56,9 +56,9 @@ double Parameters::dot(const Parameters &change) const
 
 double TraceChange::of(const Response &response) const
 {
-   require(found, "trace change: it is not known, ", message);
+   require(found, "trace change: the derivatives are not known: ", message);
    require(response.trace == 0 || trace == 0 || response.trace == trace,
-           "trace change: the response is of another march than this trace's");
+           "trace change: the response is of another march, must be of this trace");
    double sum = 0;
    for (const auto &[k, weight] : response.weights)
    {
@@ -594,7 +594,7 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       };
    };
    require(response.trace == 0 || s.trace.number == 0 || response.trace == s.trace.number,
-           "sensitivity: the response is of another march than this trace's");
+           "sensitivity: the response is of another march, must be of this trace");
    for (const auto &[k, weight] : response.weights)
    {
       const auto size = [&](const VectorXd &x, Index expected)

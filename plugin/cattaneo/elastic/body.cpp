@@ -146,7 +146,7 @@ ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatr
 {
    check_mesh(*space.GetMesh());
    require(Ranks(*space.GetMesh()).size() == 1,
-           "elastic body: the mesh is distributed, an operator of one's own on it must be a "
+           "elastic body: the mesh is distributed, your operator on it must be a "
            "HypreParMatrix");
    check_space();
    require(stiffness.Finalized(), "elastic body: the stiffness is not finalized");
@@ -448,7 +448,8 @@ const Material &ElasticBody::material(int attribute) const
 {
    require(has_material(),
            "elastic body: its operator was given as a matrix, it has no material");
-   require(!varying_, "elastic body: its material varies, ask for that of a point");
+   require(!varying_,
+           "elastic body: its material varies within an attribute, so ask for it at a point");
    require(attribute >= 1 && attribute <= static_cast<int>(materials_.size()),
            "elastic body: there is no material for element attribute ", attribute,
            ", there are those from 1 to ", materials_.size());

@@ -307,7 +307,7 @@ void ElasticBody::add_strain_field(const std::string &pattern, StrainField strai
 {
    require(
       has_material() && components() == 2, "initial strain '", pattern, "': the body ",
-      has_material() ? "twists" : "has an operator of one's own",
+      has_material() ? "twists" : "has an operator that was given as a matrix",
       ", it must be plane or axisymmetric and have a material (add_forces takes the forces "
       "of a strain, set_stress its stresses)");
    add_volume_load(pattern, true,
@@ -368,7 +368,8 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
 
 void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
 {
-   require(components() == 2, "guide: of a body of torsion, must be of one in the plane");
+   require(components() == 2,
+           "guide: the body is one of torsion, must be plane or axisymmetric");
    const std::vector<int> nodes = nodes_on(part, "guide");
    constexpr double far = std::numeric_limits<double>::max();
    std::array<double, 2> low{far, far}, high{-far, -far};
@@ -382,8 +383,7 @@ void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
          const int dof = true_dof(node, c);
          require(dof < 0 || !essential_[dof] || (c == 0 && on_axis(node)), "guide: the node (",
                  coordinates_(0, node), ", ", coordinates_(1, node),
-                 ") is held, moved or guided already, a guide must be all that says how its "
-                 "part moves");
+                 ") is held, moved or guided already, must be moved by this guide alone");
       }
    }
    const std::array<double, 2> middle{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},

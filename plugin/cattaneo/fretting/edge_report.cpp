@@ -68,8 +68,8 @@ void predict(const MarchedStates &states, const ContactEdge *before,
    }
    if (!opposite || !opposite->why_not.empty())
    {
-      solved.notes.push_back("this edge has no like at the other end of the cycle: no energy "
-                             "is predicted");
+      solved.notes.push_back("no edge at the other end of the cycle corresponds to this one: "
+                             "no energy is predicted");
       return;
    }
    solved.k_t_range = std::abs(edge.k_t.value - opposite->k_t.value);

@@ -79,9 +79,9 @@ void check_goes_on(const std::string &file, const std::string &last, const Conta
    const bool same =
       static_cast<Eigen::Index>(row.size()) >= patterns + 2 && row[0] == from.time &&
       Eigen::Map<const Eigen::VectorXd>(row.data() + 2, patterns) == from.multipliers;
-   require(same, "file '", file, "' cannot be gone on with: up to time ", from.time,
-           " it ends with the row '", last,
-           "', which is not the state that the march is taken up from: it is of another march");
+   require(same, "file '", file, "' cannot be continued: its last row up to time ", from.time,
+           " is '", last,
+           "', which is not the state from which the march continues: it is of another march");
 }
 
 } // namespace

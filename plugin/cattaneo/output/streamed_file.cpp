@@ -18,8 +18,8 @@ std::string kept_lines(const std::string &file, const std::string &header, doubl
    std::ifstream in(file);
    std::string line, last, kept = header + '\n';
    if (!std::getline(in, line)) { return kept; }
-   require(line == header, "file '", file, "' cannot be gone on with: its first line is '",
-           line, "', must be '", header, "'");
+   require(line == header, "file '", file, "' cannot be continued: its first line is '", line,
+           "', must be '", header, "'");
    // The end of a line tells that it is whole.
    while (std::getline(in, line) && !in.eof())
    {
@@ -57,7 +57,7 @@ void StreamedFile::add(const std::string &lines)
 {
    out_ << lines << std::flush;
    if (out_.good()) { return; }
-   throw WriteError("cannot go on with file '" + file_ + "': " + std::strerror(errno));
+   throw WriteError("cannot continue file '" + file_ + "': " + std::strerror(errno));
 }
 
 } // namespace cattaneo

@@ -237,10 +237,10 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    report.starts =
       report.coupled
          ? "coupled (degree " + nine_digits(problem.coupling) +
-              "): with more friction some start shakes down, and not every start has to: a "
-              "march "
-              "from rest may slip for ever; λ1 is one of the load, for a given friction: "
-              "lower_limit()"
+              "): with more friction some start shakes down, and not every start has to, so "
+              "that a march from rest may slip for ever; lower_limit() has the load below "
+              "which "
+              "every start shakes down, for a given friction"
          : "uncoupled: every start shakes down with more friction (proven)";
    report.of_the_mesh = mesh_statement(
       problem.reduced, stuck_forces(problem.reduced, problem.cycle), report, load_factor, true);

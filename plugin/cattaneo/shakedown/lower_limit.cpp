@@ -282,8 +282,8 @@ void tell_starts(LimitReport &upper, const LowerLimitReport &lower)
    if (known) { upper.every_start = lower.value; }
    upper.starts =
       "coupled (degree " + nine_digits(upper.coupling) +
-      "): below the limit some start shakes down, and not every start has to: a "
-      "march from rest may slip for ever; λ1, below which every start shakes down, ";
+      "): below the limit some start shakes down, and not every start has to, so that "
+      "a march from rest may slip for ever; λ1, below which every start shakes down, ";
    if (lower.kind == LowerLimitKind::two_nodes)
    {
       upper.starts += "is " + nine_digits(lower.value) +

@@ -725,27 +725,28 @@ WearReport WearMarch::run()
    {
       report_.reached = false;
       report_.error = std::numeric_limits<double>::infinity();
-      remark << "the way of wear is unstable, and its end is not known to the tolerance: with "
-                "jumps twice as long depths end "
-             << apart_ << " elsewhere. Tolerance 0 marches all cycles";
+      remark << "the wear is unstable, and the depth at its end is not known to the tolerance: "
+                "with jumps twice as long it differs by "
+             << apart_ << ". Tolerance 0 marches all cycles";
    }
    else if (again_ > 0 && !jumps_)
    {
-      remark << "the way of wear is unstable: errors of jumps grew, and all cycles were "
-                "marched. With other increments it may end elsewhere";
+      remark << "the wear is unstable: errors of jumps grew, and all cycles were marched. With "
+                "other increments the depth may end elsewhere";
    }
    else if (again_ > 0 && apart_ > 10 * local_)
    {
-      remark << "the way of wear is unstable: errors of jumps grew " << apart_ / local_
-             << " times. With other increments it may end elsewhere";
+      remark << "the wear is unstable: errors of jumps grew by a factor of " << apart_ / local_
+             << ". With other increments the depth may end elsewhere";
    }
    for (Kept &kept : kept_) { hand_out(std::move(kept)); }
    state_ = settled(fine_);
    if (noticed_.unsettled >= 0)
    {
-      remark << (remark.str().empty() ? "" : ". ") << "after cycle " << noticed_.unsettled
-             << " no equilibrium was found at the worn gap: the contact handed out there is as "
-                "the cycle left it";
+      remark
+         << (remark.str().empty() ? "" : ". ") << "after cycle " << noticed_.unsettled
+         << " no equilibrium was found at the worn gap: the contact returned there is the one "
+            "before the gap took in the wear of that cycle";
    }
    report_.remark = remark.str();
    report_.marched = cycles_.marched;
