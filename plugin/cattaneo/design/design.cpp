@@ -129,6 +129,7 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
    VectorXd x = start;
    for (Index stop = 0; stop >= 0;)
    {
+      // The direction toward the end, less its part against the limits that hold already.
       VectorXd way = (end - x).cwiseQuotient(unit);
       std::vector<Index> along;
       for (Index r = 0; r < count; ++r)
@@ -141,6 +142,7 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
          way -= kept.completeOrthogonalDecomposition().solve(kept * way).eval();
       }
       way = way.cwiseProduct(unit);
+      // Go as far as the next limit, which then holds too.
       stop = -1;
       double share = 1;
       for (Index r = 0; r < count; ++r)
@@ -162,7 +164,8 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
 /// at the optimum, Ipopt would go on looking for a smooth one.
 constexpr int patience = 25;
 
-/// All that a choice of variables comes to.
+/// One choice of variables and its results. `known` is false, with a message, if a case has no
+/// answer or its derivatives are not known.
 struct Trial
 {
    VectorXd x;
@@ -175,6 +178,9 @@ struct Trial
    MatrixXd by;                                  ///< by each variable; empty: not known yet
 };
 
+/** One design() in progress. Ipopt, or the linear programmes of descend(), ask for trials. Each
+    trial marches all cases. The best one that bounds and limits allow is kept, whatever the
+    search itself ends with. */
 class Design
 {
 public:
@@ -183,6 +189,8 @@ public:
         progress_(settings.march.monitor), variables_(given.low.size()),
         limits_(given.limits.rows() > 0 ? given.limits : MatrixXd(0, variables_))
    {
+      // All trials must have the same states, so no march ends earlier than another. A single
+      // march reports no progress, the search does.
       march_.stop_at_steady_state = false;
       march_.monitor.progress = {};
    }
@@ -220,6 +228,7 @@ private:
    DesignReport report_;
 };
 
+/// The trial at x. Marches all cases unless x is that of the last trial or of the best one.
 Trial &Design::at(const VectorXd &x)
 {
    if (trial_ && trial_->x == x) { return *trial_; }
@@ -230,7 +239,8 @@ Trial &Design::at(const VectorXd &x)
    trial.problem = given_.with(x);
    if (best_ && trial.problem.friction.minCoeff() < 0)
    {
-      trial.message = "friction is negative there"; // of a start that is an input error
+      // At the start the march refuses negative friction. Later the search turns back there.
+      trial.message = "friction is negative there";
       return trial;
    }
    std::vector<double> values;
@@ -267,6 +277,8 @@ Trial &Design::at(const VectorXd &x)
            trial.values.size(), " responses, and had ", best_ ? best_->values.size() : 0,
            " for other variables");
    trial.known = trial.values.allFinite();
+   // Keep the best trial. Note when it became better by more than the tolerance, because the
+   // search ends when that was too long ago.
    if (trial.known && allowed(x) && (!best_ || objective(trial) < objective(*best_)))
    {
       bettered_ = !best_ || objective(trial) < objective(*best_) - settings_.tolerance * unit_
@@ -277,6 +289,8 @@ Trial &Design::at(const VectorXd &x)
    return trial;
 }
 
+/// Computes the derivatives of all responses by all variables, once for each trial. If one is
+/// not known, neither is the trial.
 void Design::differentiate(Trial &trial)
 {
    if (trial.by.size() > 0 || !trial.known) { return; }
@@ -294,7 +308,8 @@ void Design::differentiate(Trial &trial)
          trial.known = false;
          trial.message = "case '" + given_.cases[c].name + "': " + message;
       };
-      // Whichever are fewer, marched forward or backward.
+      // Forward derivatives cost a pass for each variable, backward ones a pass for each
+      // response. Take what needs fewer passes.
       for (Index j = 0; count >= variables_ && j < variables_ && trial.known; ++j)
       {
          const TraceChange change = sensitivity.along(changes[j], march_.monitor);
@@ -353,6 +368,8 @@ SmoothProgramme Design::programme(const Trial *about, double radius)
    { return VectorXd(x.cwiseMax(-none).cwiseMin(none)); };
    const Index limits = limits_.rows(), extra = largest() ? 1 : 0,
                count = largest() ? best_->values.size() : 0;
+   // 1. Bounds of the variables, and of their change from `about`. The bound of the responses
+   // is free.
    SmoothProgramme p;
    p.linear = about != nullptr;
    p.low = VectorXd::Constant(variables_ + extra, -none);
@@ -367,10 +384,13 @@ SmoothProgramme Design::programme(const Trial *about, double radius)
       p.high.head(variables_) =
          p.high.head(variables_).cwiseMin((middle.array() + radius).matrix());
    }
+   // 2. Conditions: no response is above the bound, and each limit holds.
    p.least = VectorXd::Constant(count + limits, -none);
    p.most = VectorXd::Zero(count + limits);
    p.least.tail(limits) = bounded(given_.least.cwiseQuotient(row_unit_));
    p.most.tail(limits) = bounded(given_.most.cwiseQuotient(row_unit_));
+   // 3. Values, derivatives, and the end of the search. False where a trial is not known: Ipopt
+   // then takes a shorter step.
    p.values = [this, about, count, limits](const VectorXd &y, double &f, VectorXd &c)
    {
       const VectorXd x = x_of(y);
@@ -444,6 +464,8 @@ SmoothSolution Design::descend()
       last = solve(programme(&now, radius), y_of(now), 1e-3 * settings_.tolerance, 300);
       last.iterations = k + 1;
       if (last.outcome != ProgrammeOutcome::solved) { return last; }
+      // The programme promises this improvement. If it is below the tolerance the search is
+      // done.
       const VectorXd next = x_of(last.y);
       const double promised = objective(now) - unit_ * last.y[variables_];
       if (promised <= settings_.tolerance * unit_)
@@ -451,6 +473,7 @@ SmoothSolution Design::descend()
          last.y = y_of(now);
          return last;
       }
+      // The share of it that marches confirm decides about the radius, and whether to go there.
       const Trial &trial = at(next);
       const double kept = trial.known ? (objective(now) - objective(trial)) / promised : -1;
       const bool far =
@@ -576,6 +599,7 @@ void Design::take(const SmoothSolution &solution)
 
 DesignReport Design::run(const VectorXd &start)
 {
+   // 1. The start must have an answer and derivatives in all cases.
    report_.x = start;
    Trial &first = at(start);
    differentiate(first);
@@ -586,9 +610,12 @@ DesignReport Design::run(const VectorXd &start)
       report_.seconds = progress_.seconds();
       return report_;
    }
+   // 2. Units of the variables follow from the derivatives at the start.
    report_.objective_at_start = objective(first);
    best_ = first;
    find_scales(first);
+   // 3. Search. Peak pressures are linear between changes of states, and linear programmes end
+   // in an exact optimum. All other goals go to Ipopt.
    const SmoothSolution solution =
       largest() && !given_.objective && !given_.shape
          ? descend()
@@ -599,6 +626,8 @@ DesignReport Design::run(const VectorXd &start)
       report_.message = solution.message;
       report_.objective = report_.objective_at_start;
    }
+   // 4. Take the last point, or the best trial if that is better, and check the optimality
+   // there.
    else { take(solution); }
    report_.seconds = progress_.seconds();
    progress_.end(1.0, report_.iterations);
@@ -669,7 +698,7 @@ std::vector<VectorXd> spread_starts(const DesignProblem &problem, const VectorXd
    const DesignSettings usual;
    require_start(problem, start, usual.tolerance);
    const Index variables = start.size();
-   // The golden ratio of as many dimensions: the root of φ^(d+1) = φ + 1.
+   // The sequence of the golden ratio in d dimensions, with the root of φ^(d+1) = φ + 1.
    double phi = 2;
    for (int k = 0; k < 60; ++k)
    {

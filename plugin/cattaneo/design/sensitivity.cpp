@@ -249,6 +249,8 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
 bool Sensitivity::System::set(std::size_t k)
 {
    std::vector<NodeState> states = state(k).status;
+   // 1. Motions that these states leave to a body make the equations singular. A stiffness
+   // against them is added. Balanced forces do not push them, so its size does not matter.
    free = free_motions(problem, states);
    if (free.cols() > 0 && (held_motions.cols() != free.cols() || held_motions != free))
    {
@@ -257,13 +259,13 @@ bool Sensitivity::System::set(std::size_t k)
          factorisations += as_held->factorisations();
          updates += as_held->updates();
       }
-      // Forces that are balanced do not push them: any stiffness will do.
       held_motions = free;
       as_held.reset();
       K_held = K + K.diagonal().mean() * free * free.transpose();
       as_held = std::make_unique<StateEquations>(K_held, friction_bounds(problem));
    }
    equations = free.cols() > 0 ? as_held.get() : &as_given;
+   // 2. A held node never slips. Closed, it counts as stuck. Open, only its opening is free.
    std::vector<Index> open;
    for (Index i = 0; i < n; ++i)
    {
@@ -288,12 +290,15 @@ Sensitivity::System::Boundary Sensitivity::System::boundary(std::size_t k) const
    const ContactState &now = state(k);
    const Index i = trace.states[k].event;
    Boundary at{VectorXd::Zero(K.rows()), VectorXd::Zero(K.rows())};
+   // An open node closes where w + g = 0.
    if (!closed(now.status[i]))
    {
       at.displacements[m + i] = 1;
       at.gap = 1;
    }
+   // A slipping node, or one without friction, opens where p = 0.
    else if (slips(now.status[i]) || m == 0) { at.forces[m + i] = 1; }
+   // A sticking node begins to slip where f p - |q| = 0.
    else
    {
       at.forces[i] = now.q[i] < 0 ? 1 : -1;
@@ -306,6 +311,8 @@ Sensitivity::System::Boundary Sensitivity::System::boundary(std::size_t k) const
 void Sensitivity::System::respond(std::size_t k, const VectorXd &db, const VectorXd &beside,
                                   VectorXd &du, VectorXd &dF)
 {
+   // Sticking nodes keep the given slip and closed ones the given opening. Only the other rows
+   // have equations.
    VectorXd imposed = VectorXd::Zero(K.rows());
    for (Index i = 0; i < n; ++i)
    {
@@ -315,6 +322,8 @@ void Sensitivity::System::respond(std::size_t k, const VectorXd &db, const Vecto
    VectorXd x, forces;
    equations->solve(db + K * imposed + beside, x, forces);
    du = imposed + x;
+   // The equations may contain a stiffness that was added, so that forces are then formed with
+   // K.
    dF = free.cols() > 0 ? VectorXd(db + K * du) : VectorXd(forces - beside);
 }
 
@@ -322,6 +331,7 @@ Sensitivity::System::Adjoint Sensitivity::System::go_back(std::size_t k,
                                                           const VectorXd &displacements,
                                                           const VectorXd &forces)
 {
+   // respond() maps {db, beside, imposed} to {du, dF}. This is its transpose.
    Adjoint adjoint;
    VectorXd z;
    equations->solve_transposed(displacements + K * forces, adjoint.equations, z);
@@ -453,7 +463,7 @@ long Sensitivity::updates() const
 namespace
 {
 
-/// Tells of states that are done, of all; true, and why, if that is to be all.
+/// Reports how many states are done. True, with the reason, if the monitor asks to stop.
 bool stopped(const Monitor &monitor, ProgressReport &progress, Index done, Index all,
              std::string &why)
 {
@@ -506,16 +516,19 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
    {
       if (stopped(monitor, progress, k - 1, states - 1, result.message)) { return result; }
       const TracedState &traced = s.trace.states[k];
+      // 1. The equations of the node states at the end of increment k.
       if (!s.set(k))
       {
          result.message = s.message;
          return result;
       }
+      // 2. Where the gap took in wear before this increment, so does its change.
       if (s.wears() && s.updates_gap_after(k - 1))
       {
          gap += result.worn.middleCols(in_gap + 1, k - 1 - in_gap).rowwise().sum();
          in_gap = k - 1;
       }
+      // 3. Changes of the loads, the stiffness and friction add forces to the equations.
       VectorXd loads = (1 - traced.share) * x.by.multipliers.col(traced.point) +
                        traced.share * x.by.multipliers.col(traced.point + 1);
       const VectorXd clamped = s.F * loads + s.clamped_by_stiffness(k) * x.by.stiffness;
@@ -526,9 +539,13 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
          result.message = "a body that is free to slide without friction is pushed";
          return result;
       }
+      // 4. Sticking nodes keep the slip of the state before, closed nodes have w = -g.
       VectorXd du = x.displacements.col(k - 1), dF;
       du.tail(n) = -gap;
       s.respond(k, clamped, beside, du, dF);
+      // 5. If the increment ends where a node changes its state, the load there is an unknown
+      // too. Its change keeps the node on its boundary. If the boundary does not come nearer
+      // along the loads, the event is at the load of the state before, and so is its change.
       if (traced.event < 0) { share_change = 0; }
       else
       {
@@ -545,6 +562,7 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
          dF += share_change * dF_rate;
          loads += share_change * s.piece(k);
       }
+      // 6. Conjugates, loss and wear follow from displacements and forces.
       x.displacements.col(k) = du;
       x.forces.col(k) = dF;
       x.multipliers.col(k) = loads;
@@ -595,6 +613,8 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
    };
    require(response.trace == 0 || s.trace.number == 0 || response.trace == s.trace.number,
            "sensitivity: the response is of another march, must be of this trace");
+   // The response is a function of states. Write its derivatives as ones by displacements,
+   // forces and multipliers of each state.
    for (const auto &[k, weight] : response.weights)
    {
       const auto size = [&](const VectorXd &x, Index expected)
@@ -631,8 +651,11 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
          by.stiffness += s.conjugates_by_stiffness(k).transpose() * weight.conjugates;
       }
    }
-   double by_share = 0;
-   VectorXd by_worn = VectorXd::Zero(n); // that the gap of later states has taken in
+   // Then go back through the states. Each passes its derivatives on to the parameters and to
+   // the state before.
+   double by_share =
+      0; // derivative by the load at an event, from later states at the same load
+   VectorXd by_worn = VectorXd::Zero(n); // by wear that the gap of later states has taken in
    ProgressReport progress(monitor);
    for (Index k = states - 1; k > 0; --k)
    {
@@ -642,8 +665,10 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       }
       const TracedState &traced = s.trace.states[k];
       const ContactState &now = traced.state;
+      // 1. Wear of this increment acts on later states through their gap.
       if (s.wears() && s.updates_gap_after(k)) { by_worn = by.gap; }
       s.visit_worn(k, by_worn, x, weighted(by_worn));
+      // 2. Nothing to do if nothing depends on this state.
       if (by_share == 0 && by_u.col(k).isZero(0) && by_F.col(k).isZero(0) &&
           by_loads.col(k).isZero(0))
       {
@@ -654,6 +679,9 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
          result.message = s.message;
          return result;
       }
+      // 3. The motion of a body that the states leave free is not determined, so there is no
+      // derivative of what depends on it. A load that would push such a body without friction
+      // has none either.
       if (s.pushes(by_u.col(k)))
       {
          std::ostringstream message;
@@ -666,6 +694,7 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
          if (s.pushes(s.F.col(j))) { by.multipliers.row(j).setConstant(std::nan("")); }
       }
       if (s.frictionless && s.free.cols() > 0) { by.friction.setConstant(std::nan("")); }
+      // 4. The transposed equations, and at an event the transpose of step 5 of along().
       System::Adjoint at = s.go_back(k, by_u.col(k), by_F.col(k));
       if (traced.event < 0) { by_share = 0; }
       else
@@ -685,6 +714,8 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
          }
          if (rate != 0 || !s.goes_with_the_last(k)) { by_share = 0; }
       }
+      // 5. Derivatives by the parameters, and by the slip of the state before where nodes
+      // stick.
       const VectorXd by_load = s.F.transpose() * at.clamped + by_loads.col(k);
       by.multipliers.col(traced.point) += (1 - traced.share) * by_load;
       by.multipliers.col(traced.point + 1) += traced.share * by_load;
