@@ -36,7 +36,7 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
 {
    MarchTrace trace;
    MarchSettings every = settings;
-   every.every_event = true; // derivatives are those of straight pieces
+   every.every_event = true; // between two events the path is straight, which derivatives need
 
    trace.number = next_number();
    trace.history = history;
@@ -87,6 +87,7 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
    const auto watch =
       [&](const ContactState &now, const IncrementRecord &record, const VectorXd &depth)
    {
+      // Time that goes back tells that the next cycle has begun. Times of the trace go on.
       if (piece > 0 && now.time <= once.piece(piece).start)
       {
          piece = history.cycle_start;
@@ -128,7 +129,8 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
    {
       const ContactState &now = trace.states[k].state,
                          &before = trace.states[k > 0 ? k - 1 : 0].state;
-      // Before any load the first ones are the scale.
+      // What counts as no force, relative to the largest force so far. At the start, where
+      // there is no force yet, that of the first increment is the scale.
       const double tiny =
          tolerance *
          trace.states[std::min(std::max<std::size_t>(k, 1), trace.last())].state.peak_force;
@@ -143,18 +145,23 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
             along = std::hypot(along, now.q[row]);
             way = std::hypot(way, now.v[row] - before.v[row]);
          }
+         // An open node that touches could stick.
          if (!closed(taken))
          {
             const VectorXd &worn = trace.states[k].depth;
             const double gap = problem.gap[i] + (worn.size() > 0 ? worn[i] : 0.0);
             if (own * (now.w[i] + gap) <= tiny) { other = NodeState::stick; }
          }
+         // A closed node without force could be open.
          else if (now.p[i] <= tiny) { other = NodeState::separation; }
+         // A node without friction, or held, has no other state.
          else if (c == 0 || held[i] || problem.friction[i] == 0) { continue; }
+         // A slipping node that has hardly moved could stick.
          else if (taken != NodeState::stick)
          {
             if (problem.A()(i, i) * way <= tiny) { other = NodeState::stick; }
          }
+         // A sticking node on the friction limit could slip.
          else if (friction_bound(problem, i).at(now.p[i], now.q[i] > 0 ? -1 : 1) - along <=
                   tiny)
          {
@@ -162,6 +169,7 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
                     : now.q[i] < 0 ? NodeState::forward_slip
                                    : NodeState::backward_slip;
          }
+         // The node of the event itself is none, because the path goes on through it smoothly.
          if (other != taken && i != trace.states[k].event)
          {
             found.push_back({k, i, taken, other});

@@ -150,8 +150,9 @@ WearCycle WearCycles::repeated(ContactState &contact, const VectorXd &depth, dou
       if (!cycle.found()) { return cycle; }
       const double most = std::max(cycle.depth.maxCoeff(), least),
                    change = (cycle.depth - before.depth).cwiseAbs().maxCoeff();
-      // All changes that are still to come: at worst each is as large as this one. Where each
-      // was less than the one before, they go on to fall by that factor.
+      // Bound the sum of the changes in all cycles that are still to come. At worst each is as
+      // large as this one. If this one is smaller than the one before, they are taken to go on
+      // falling by the same factor.
       double left = cycles * change;
       if (change < change_before)
       {
@@ -184,8 +185,9 @@ bool WearCycles::settle(ContactState &contact, const VectorXd &depth)
 
 VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle, double cycles)
 {
-   // With the openings u of the worn surfaces, δw = u - c p' and p' = p + C δw, so that
-   // p' = (1 + C c)⁻¹ (p + C u): a contact without friction of another stiffness.
+   // The pressures p' at the end of these cycles follow from δw = u - c p' and p' = p + C δw,
+   // with the openings u of the worn surfaces. So p' = (1 + C c)⁻¹ (p + C u), which is a
+   // contact without friction and with another stiffness.
    const Index n = problem.nodes();
    const VectorXd c = cycles * cycle.compliance(), root = c.cwiseSqrt();
    const MatrixXd half = root.asDiagonal() * problem.C();
