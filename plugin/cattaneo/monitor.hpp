@@ -16,7 +16,7 @@ struct Progress
    double seconds = 0; ///< since it began; share and seconds say how long the rest will take
 };
 
-/** Who watches long work, and may stop it: a member of the settings of what can be long.
+/** Watches long work, and may stop it. Settings of everything that can take long have one.
 
     Both are asked by the thread that does the work, once an increment (or iteration), never in
     the middle of one. Copies share the same stop flag. */

@@ -81,9 +81,9 @@ double two_node_limit(const ReducedProblem &problem, const StuckForces &loads,
    return lowest;
 }
 
-/// Lengths of the nodes' blocks of the rows of M; shifted, where there is one rigid motion t,
-/// by multiples of tᵀ so that their sum over the nodes, weighted, is smallest. Returns the
-/// shift of each row.
+/// Length of each node's block in each row of M. If there is one rigid motion t, each row is
+/// first shifted by the multiple of tᵀ that makes the weighted sum of its lengths smallest.
+/// `shift` gets that multiple for each row.
 Eigen::MatrixXd magnitude(const Eigen::MatrixXd &M, const Eigen::VectorXd &t,
                           const Eigen::VectorXd &weight, Eigen::VectorXd &shift)
 {

@@ -19,7 +19,8 @@ namespace
 
 const char *const format_name = "cattaneo wear state 1";
 
-/// Cycles that a jump must cover to be worth those that it marches, here and beside it.
+/// Least number of cycles in a jump. A shorter one would march about as many cycles as it
+/// saves.
 constexpr double least_jump = 40;
 
 } // namespace
