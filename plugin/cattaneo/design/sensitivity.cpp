@@ -653,8 +653,7 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
    }
    // Then go back through the states. Each passes its derivatives on to the parameters and to
    // the state before.
-   double by_share =
-      0; // derivative by the load at an event, from later states at the same load
+   double by_share = 0; // derivative by the load of an event, from later states at that load
    VectorXd by_worn = VectorXd::Zero(n); // by wear that the gap of later states has taken in
    ProgressReport progress(monitor);
    for (Index k = states - 1; k > 0; --k)

@@ -37,8 +37,7 @@ struct Strain
    }
 };
 
-/// Stress of an isotropic material that is kept from straining freely; zz is not asked for in
-/// plane stress.
+/// Stress of an isotropic material under an elastic strain. In plane stress zz is not used.
 Stress stress(const Material &material, const Strain &strain);
 
 /// Circumferential shear stresses of a body that twists.

@@ -44,9 +44,10 @@ struct StayedClosed
    MarchReport march;               ///< the nodes are right only if it converged
 };
 
-/** The nodes that are closed throughout some cycles at a load factor, marched from rest through
-    the constant load and the vertices of the cycle in their order; fewer cycles, once they are
-    steady. Nodes that are open while the constant load is applied may close. InputError as
+/** Finds the nodes that stay closed throughout some cycles at a load factor. Marches from rest
+    through the constant load and then through the vertices of the cycle in their order. Ends
+    earlier if cycles are steady. Nodes that are open while the constant load is applied may
+    close. InputError as
     LoadCycle::validate() and for less than one cycle. */
 StayedClosed stay_closed(const ReducedProblem &problem, const LoadCycle &cycle,
                          double load_factor, int cycles, const Monitor &monitor = {});

@@ -36,7 +36,8 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
     only. */
 struct Method2Estimate
 {
-   /// Some permissible residual shear has no resultant. If none has, the estimates are zero.
+   /// Is there a permissible residual shear without a resultant? If not, the estimates are
+   /// zero.
    bool exists = false;
    std::string message; ///< what was found, in one sentence
    double low = 0;      ///< the choice that needs the least friction

@@ -83,7 +83,7 @@ ConeProgramme clearance_programme(ConeProgramme programme, const Eigen::MatrixXd
    programme.loads.q1.setZero();
    programme.loads.p1.setZero();
    programme.strength1 = -weight;
-   programme.ceiling = 10; // more clearance than ten times the friction limit is of no use
+   programme.ceiling = 10; // a clearance above ten times the friction limit decides nothing
    return programme;
 }
 

@@ -25,7 +25,7 @@ struct Clearance
 {
    ConeSolution solution;
    Eigen::VectorXd slip;
-   double reached = -infinity; ///< by the slip for certain, in typical forces
+   double reached = -infinity; ///< that the slip has for certain, in typical forces
    double bound = infinity;    ///< of all states, proven by the mechanism of the solution
 };
 

@@ -282,7 +282,8 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
       return found;
    }
 
-   // Slips whose residual shear is of the size that friction can hold under the constant loads.
+   // Starts are multiples of the optimal slip, and random slips whose residual shear friction
+   // can hold under the constant loads.
    std::mt19937 random(settings.seed);
    std::uniform_real_distribution<double> uniform(-1, 1);
    const Eigen::VectorXd
@@ -294,7 +295,7 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
    {
       Eigen::VectorXd shear(m);
       for (Eigen::Index i = 0; i < m; ++i) { shear[i] = uniform(random) * strength[i % n]; }
-      // Alternately rough and smooth (few sign changes: a random step).
+      // Every second start has shear that changes its sign only once, at a random place.
       if (k % 2 == 1)
       {
          const double position = uniform(random), height = uniform(random);

@@ -77,8 +77,9 @@ struct TransientReport
    /// The largest slip of a stuck contact that is let go, |A⁻¹ q| over the vertices, the scale
    /// of `cycle_slip`.
    double elastic_slip = 0;
-   /// Way of each node that bears at some time of the last cycle, of two cycles the longer one
-   /// where the steady state is not known to have period 1; size n.
+   /// Length of the slip path in the last cycle of each node that bears at some time of it,
+   /// size n. If the steady state is not known to have period 1, the longer one of the last two
+   /// cycles.
    Eigen::VectorXd cycle_slip;
    NodeList opened;        ///< nodes that are open at some time of the last cycle
    double opened_loss = 0; ///< dissipation at these in the last cycle

@@ -513,7 +513,7 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    {
       result.way.lag = slower * slower * from.lag;
       const VectorXd more = (cycles * result.way.lag).cwiseMax(-0.5 * best.depth);
-      double left_out = 0; // at nodes that wear so alone, of which no loss is known
+      double left_out = 0; // at nodes that wear only because the gap changes
       for (Index i = 0; i < more.size(); ++i)
       {
          if (!(first.depth[i] > 0))
@@ -524,8 +524,8 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
          best.depth[i] += more[i];
          best.loss[i] += more[i] * first.loss[i] / first.depth[i];
       }
-      // Such a node wears only because its neighbours do. Jumps do not move it, and that error
-      // may grow without end. So it counts ten times, which shortens the jump.
+      // The loss of such a node is not known, so jumps leave its wear out. That error may grow
+      // without end. It counts ten times, which shortens the jump.
       result.error += 10 * left_out;
       result.unseen += 0.25 * largest(more) + left_out;
    }

@@ -10,7 +10,7 @@
 namespace cattaneo
 {
 
-/// All that the future of a wearing contact depends on.
+/// The state of a wearing contact: all that its future depends on.
 struct WearState
 {
    /// With the slip and the forces of the worn contact, whose gap is g + depth.
@@ -103,11 +103,11 @@ struct WearReport
        -C δdepth and the depth of a cycle c p (c a diagonal) it is 2/λ_max(c C). Jumps are
        implicit, without such a limit. The least so far; infinite if nothing wears. */
    double explicit_limit = 0;
-   /// Cycles so severe (explicit_limit below 2) that their own update was implicit: k is so
-   /// large that a cycle wears off what the contact gives way by.
+   /// Cycles so severe (explicit_limit below 2) that their own update was implicit. k is so
+   /// large that one cycle wears off as much as the contact is compressed.
    long implicit_cycles = 0;
-   double steady_cycle = 0; ///< from which each cycle wears as the next does; 0: none
-   double final_cycle = 0;  ///< at which wear had come to its end; 0: it has not
+   double steady_cycle = 0; ///< first of the cycles that wear alike; 0: none
+   double final_cycle = 0;  ///< at which wear ended; 0: it has not ended
    /// Ends of the line that the contact reached in any cycle although the bodies go on there:
    /// what is worn is too little then.
    std::vector<CutOffContact> cut_off;
