@@ -109,8 +109,8 @@ void Shakedown::options()
                 not_negative);
    study.option(
       &lower_limits, "lower",
-      "What is proven of loads that shake down from every start, also but for slip at "
-      "nodes near the ends.");
+      "Also find the load that is proven to shake down from every start, with and without "
+      "slip at nodes near the ends.");
    study.option(&load_ratios, "load-ratios",
                 "Largest loads over f for R = -1 with f = 0.85 and 1, and R = -0.5 with 0.85 "
                 "(chapter 4).");

@@ -170,11 +170,12 @@ void Shakedown::draw_adhesion(double opens, const char *by)
    const double at_node = std::max(std::abs(ratios[0]), std::abs(ratios[ratios.size() - 1]));
    study.value("corner_node_ratio", at_node);
    study.say(wrapped(
-      text("f = %.4f at x = 1 is the ratio of the singular tractions. The forces of the "
-           "corner's own node have the ratio %.4f under P alone, which no mesh brings to the "
-           "tractions': with friction between the two a march slips at that node and its "
-           "next, by less the finer the mesh. That is an artefact.",
-           williams_ratio[0], at_node),
+      text(
+         "f = %.4f at x = 1 is the ratio of the singular tractions. The forces of the "
+         "corner node have the ratio %.4f under P alone, on any mesh. With friction between "
+         "the two a march slips at that node and the next one. This slip falls as the mesh is "
+         "refined. It is an artefact.",
+         williams_ratio[0], at_node),
       0));
 }
 

@@ -28,7 +28,7 @@ INVENTED = "The tests shown are *invented*: those of the thesis are in papers wh
 CHAPTER = Chapter(2, "Correlation of fretting fatigue tests", """
 Two bodies of the same material touch over a width 2a that grows with the load, and are sheared: near the edges they slip to and fro, and there cracks begin. Close to an edge all such
 contacts look alike. The pressure rises as p = K_N √t with the distance t from the edge, and the shear would be q = K_T/√t if nothing slipped: two numbers hold whatever shape and loads
-have to say. What slips is d = 2 K_T/(f K_N) wide.
+have to say. The slip zone has the width d = 2 K_T/(f K_N).
 
 From K_N, K_T and the friction coefficient f follow, in closed form: the stresses, and whether the slip zone yields (2.2 to 2.4); the stress at the edge, the classical measure of fatigue (2.5);
 the stress intensity of a crack that grows from the edge, and with it the verdict of Kitagawa and Takahashi: does it go on growing when it has the critical length a0, or

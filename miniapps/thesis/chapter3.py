@@ -14,8 +14,8 @@ eliminated once, exactly, and what is left is a dense relation between the force
 q = A v + Bᵀ w + q^w(t), p = B v + C w + p^w(t), where q^w and p^w are the forces that the loads would cause if nothing moved. For two bodies the
 relations are added through their flexibilities. Contact is *coupled* unless B = 0.
 
-Each node then is in one of four states: *stick* (w + g = 0, v constant, |q| ≤ f p), *separation* (p = q = 0, w + g > 0), *forward slip* (q = -f p, v grows), *backward slip* (q = f p, v falls), g
-being an initial gap. The loads are followed in increments, in each of which states are sought that satisfy all of that to round-off; there are no contact elements, and no stiffness of
+Each node is in one of four states. A node that *sticks* has w + g = 0, v constant and |q| ≤ f p. In *separation* p = q = 0 and w + g > 0. In *forward slip* q = -f p and v grows, in *backward slip* q = f p and v falls.
+Here g is the initial gap. The loads are followed in increments, and in each of them states are sought that satisfy all of that to round-off. There are no contact elements, and no stiffness of
 contact or of stick to choose. The thesis goes from node to node until nothing changes (Gauss-Seidel); here whole sets of states change at a time (an active set), with a path by single nodes
 to fall back on.
 

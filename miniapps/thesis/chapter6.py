@@ -96,7 +96,7 @@ def widths(run):
 
 
 TIES = """ Followed exactly, from one change of a node's state to the next, with contact nodes every 0.0025 t. Drawn are settled states: a node that touches without force is no
-contact, and one at the friction limit that hasn't moved sticks. What steps are left in the edge of the contact are of one node."""
+contact, and one at the friction limit that hasn't moved sticks. Steps that remain in the edge of the contact are of one node."""
 
 
 def zones(run):
@@ -110,7 +110,7 @@ T acts uniformly on the loaded end of each lap. Nodes in the middle of these end
                sketches.lap)
 CHAPTER.sketch("6.3", "Load history", "P is applied and held; then T goes between 0 and Tmax. Numbers are the states of figures 6.4 and 6.7.",
                lambda: sketches.histories({"P": ([0, 1, 6], [1e-9, 1, 1]), "T": ([0, 1, 2, 3, 4, 5, 6], [0, 0, 0.6, 0, 0.6, 0, 0.6])},
-                                          "load step", [(1, 0, "1"), (1.5, 0.3, "2"), (2, 0.6, "3"), (2.5, 0.3, "4"), (3, 0, "5"), (3.5, 0.3, "6"), (4, 0.6, "7")]))
+                                          "point of the load history", [(1, 0, "1"), (1.5, 0.3, "2"), (2, 0.6, "3"), (2.5, 0.3, "4"), (3, 0, "5"), (3.5, 0.3, "6"), (4, 0.6, "7")]))
 figure("6.4", "Tractions, tension", joint(0.04, 0.2), """
 Pressure and shear over f in the seven states of figure 6.3, Tmax = 0.04 P0, f = 0.2. Tension shrinks the contact; the pressure comes back with T, while the shear leaves
 a pattern with reverse slip at T = 0, and is then the same in every cycle.""", tractions, rows="a0|peak|^a/t|c/a|steady, T = 0.04",
@@ -141,7 +141,7 @@ Loss a cycle for three coefficients of friction. It falls with f, because slip s
 The thesis concludes that tension dissipates more than compression. That holds for the first cycle (right); in the steady cycle, which the figure is about, compression
 does (left): the contact is wider there.""", proof=SWEEP)
 figure("6.11", "Loss against the width of the bolt", WIDTHS, """
-The same pull of 0.025 p0 t on bolts of other widths, with which the free ends stay apart in compression; from 0.028 p0 t on they touch at w = 2 t with the same force and at w = t/2 with the same pressure, and
+The same pull of 0.025 p0 t acts on bolts of other widths. With it the free ends stay apart in compression. From 0.028 p0 t on they touch at w = 2 t with the same force, and at w = t/2 with the same pressure, and
 take most of the loss. With the same pressure a wider bolt loses less, and at the same width so does a higher pressure; of bolts of the same force the narrow one, whose pressure is
 highest, loses least.""", widths, wrong="""
 The thesis concludes that a wider pinch loses less. That holds for the same pressure p0 (solid); for the same force P0 a wider one loses more (dashed).""", proof=WIDTHS)

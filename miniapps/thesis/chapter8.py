@@ -97,9 +97,9 @@ closed slip can go on for ever only if it does within a distance δ of a corner,
 left, which falls whenever a node slips that is sure of enough pressure.
 
 *Tried* (left): marches from random and adversarial starts. None slips for ever at nodes that stay closed, up to 0.98 λ2. But from starts that take the pressure from the corners a few nodes there open and slip in every cycle, even at λ = 0.05; they
-lose less than a ten-millionth of what the first cycle does. Of a contact that may open λ1 is no more than that, and there is nothing left to prove: what the corners do then is decided by the mesh.""", lower)
+lose less than a ten-millionth of what the first cycle does. For a contact that may open λ1 is no larger than that load, so there is nothing left to prove. The mesh decides about the corners then.""", lower)
 figure("8.2 (5)", "Shakedown of a receding contact", RECEDING, """
 The strip of chapter 5 under a pressure that goes between p0 and less: loss in each cycle. The theory takes a set of nodes that stay closed and can say nothing here, since with the load nodes at
-the edge open and close (the table of the command counts them); these are marches from one start, observed and not proven. What is left falls with the third power of the range, for small ones, to the fifth, for large ones, and is there even when the load
-loses only a twentieth: whatever makes the contact recede further makes its edge slip. Left: zones in the first two cycles, down to 0.2.""",
+the edge open and close (the table of the command counts them); these are marches from one start, observed and not proven. The loss that remains falls with the third power of the range if that is small, with the fifth if it is large. It is there even when the load
+loses only a twentieth, because whatever makes the contact recede further makes its edge slip. Left: zones in the first two cycles, down to 0.2.""",
        lambda run: f.panels((run, "load_cycle_zones", {"title": "", "limits_y": "-2,2"}), (run, "load_losses", {"title": ""})))

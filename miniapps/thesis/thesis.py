@@ -25,9 +25,9 @@ This page goes through a doctoral thesis on frictional contact and fretting (A. 
 contacts applied to fretting fatigue*, Oxford 2013), figure by figure, with curves that Cattaneo computed on
 converged meshes. Every section says what its figure shows, and the command that makes it.
 
-Tables compare with *references*: closed forms, and values found independently of this program, with their own ±. What is
-outside of it is marked; "within the mesh's ±" says that the mesh and the increments of the run, whose errors are known,
-explain it. Values of the thesis are those that its text states; hollow diamonds are they in figures. Where it is
+Tables compare with *references*: closed forms, and values found independently of this program, with their own ±. Values
+outside of it are marked; "within the mesh's ±" says that the errors of the mesh and the increments of the run, which are known,
+explain the difference. Values of the thesis are those that its text states. In figures they are hollow diamonds. Where the thesis is
 wrong, the reason stands below the table. Quantities are dimensionless as each chapter says.
 """
 

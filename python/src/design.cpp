@@ -197,17 +197,18 @@ void bind_problem(nb::module_ &m)
          arg("limits") = nb::none(), arg("least") = nb::none(), arg("most") = nb::none(),
          arg("goal") = "least_largest", arg("objective") = nb::none(),
          arg("shape") = nb::none(),
-         "problem: that of x = 0. variables: columns that are added to the gap, (n, number of "
-         "variables), or a list of Parameters without stiffness. low, high: bounds of each, or "
-         "one number. limits: a matrix L with a row a limit, least <= L x <= most, which may "
-         "be "
+         "problem: the reduced problem at x = 0.\n"
+         "variables: columns that are added to the gap, (n, number of variables), or a list of "
+         "Parameters without stiffness.\n"
+         "low, high: bounds of each variable, or one number.\n"
+         "limits: a matrix L with a row for each limit, least <= L x <= most. Both may be "
          "infinite.\n"
-         "objective: a function of Responses and the states that count, which returns a list "
-         "of "
-         "Response; None: the pressures of all nodes. goal: 'least_largest' or 'least_sum' of "
-         "all responses of all cases, each times its case's weight. shape: a function of x "
-         "that returns a gap that is added, (n,), and its derivatives, (n, number of "
-         "variables); None: the gap is linear in x.")
+         "objective: a function of Responses and the states that count. It returns a list of "
+         "Response. None: the pressures of all nodes.\n"
+         "goal: 'least_largest' or 'least_sum' of all responses of all cases, each times the "
+         "weight of its case.\n"
+         "shape: a function of x. It returns a gap that is added, (n,), and its derivatives, "
+         "(n, number of variables). None: the gap is linear in x.")
       .def_prop_ro(
          "variables", [](const Self &self) { return self.problem.variables; },
          nb::sig("def variables(self) -> list[Parameters]"), "per unit of each")

@@ -321,7 +321,7 @@ void bind_corner(nb::module_ &m)
                                          finite(poisson, "poisson"), plane_stress});
       },
       arg("pad_angle"), arg("poisson"), arg("plane_stress") = false,
-      "Of an elastic pad on a rigid body.");
+      "Modes at the corner of an elastic pad on a rigid body.");
    nb::class_<CornerFit>(m, "CornerFit")
       .def_ro("k_one", &CornerFit::k_one)
       .def_ro("k_two", &CornerFit::k_two)

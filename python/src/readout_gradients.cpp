@@ -118,9 +118,8 @@ void bind_limit_gradients(nb::module_ &m)
                                 load_limit_gradient(problem, limit, stiffness));
       },
       arg("problem"), arg("limit"), arg("stiffness") = nb::tuple(),
-      "Of shakedown.load_limit(), whose report `limit` is. If it is not known that is warned "
-      "of "
-      "(OutcomeWarning).");
+      "Derivatives of the limit whose report `limit` shakedown.load_limit() gave. If they are "
+      "not known there is a warning (OutcomeWarning).");
    m.def(
       "friction_limit_gradient",
       [](const LimitProblem &problem, double load_factor, const LimitReport &limit,
@@ -132,7 +131,7 @@ void bind_limit_gradients(nb::module_ &m)
                                                         limit, stiffness));
       },
       arg("problem"), arg("load_factor"), arg("limit"), arg("stiffness") = nb::tuple(),
-      "Of shakedown.friction_limit() at a load factor.");
+      "Derivatives of shakedown.friction_limit() at a load factor.");
 }
 
 } // namespace

@@ -531,8 +531,8 @@ void bind_sensitivity(nb::module_ &m)
                                 { return all.gradient(of, monitor); });
          },
          arg("response"),
-         "Of one response by all parameters, back through the march. If it is not known that "
-         "is warned of (OutcomeWarning). Ctrl-C ends it.")
+         "Derivatives of one response by all parameters, back through the march. If they are "
+         "not known there is a warning (OutcomeWarning). Ctrl-C ends it.")
       .def(
          "along",
          [](Self &self, const Parameters &change)
@@ -542,8 +542,8 @@ void bind_sensitivity(nb::module_ &m)
                                 { return all.along(of, monitor); });
          },
          arg("change"),
-         "Of all states along one change of parameters, forward through the march. If it is "
-         "not known that is warned of (OutcomeWarning). Ctrl-C ends it.")
+         "Derivatives of all states along one change of parameters, forward through the march. "
+         "If they are not known there is a warning (OutcomeWarning). Ctrl-C ends it.")
       .def(
          "factorisations",
          [](Self &self)

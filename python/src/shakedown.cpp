@@ -193,9 +193,11 @@ void bind_limits(nb::module_ &m)
       arg("problem"), nb::kw_only(), arg("settings") = told, arg("start") = nb::none(),
       arg("progress") = false, arg("stop") = nb::none(), arg("members"),
       "The largest load factor under which some slip keeps all nodes stuck and closed, for the "
-      "friction of the problem. settings: those that are given say whether, of a coupled "
-      "contact, λ1 is asked for too, below which every start shakes down. start: an earlier "
-      "report of a sweep.");
+      "friction of the problem.\n"
+      "settings: without them λ1 is found too, below which every start shakes down in a "
+      "coupled "
+      "contact. Settings that are given say so themselves (every_start).\n"
+      "start: an earlier report of a sweep.");
    m.def(
       "friction_limit",
       [](const LimitProblem &problem, double load_factor, LimitSettings settings,
@@ -214,7 +216,8 @@ void bind_limits(nb::module_ &m)
       "The smallest coefficient, the same at all nodes, at which the contact shakes down.");
 
    nb::class_<LowerLimitReport>(
-      m, "LowerLimitReport", "What is known of the limit below which every start shakes down.")
+      m, "LowerLimitReport",
+      "The limit below which every start shakes down, as far as it is known.")
       .def_prop_ro(
          "kind",
          [](const LowerLimitReport &self)

@@ -195,7 +195,7 @@ std::string brief(const Wear &self)
 void bind_report(nb::module_ &m)
 {
    nb::class_<WearRecord>(m, "WearRecord",
-                          "Of a cycle that was marched, or a jump over several.")
+                          "Record of a cycle that was marched, or of a jump over several.")
       .def_ro("cycles", &WearRecord::cycles, "so far, at its end")
       .def_ro("covered", &WearRecord::covered, "how many it covers")
       .def_ro("volume", &WearRecord::volume, "worn off so far")
@@ -226,8 +226,8 @@ void bind_report(nb::module_ &m)
    };
    nb::class_<Self> report(
       m, "WearReport",
-      "What a march with wear came to: `state` at its end, and arrays with "
-      "an entry for every cycle that was marched and every jump.");
+      "Result of a march with wear: `state` at its end, and arrays with an "
+      "entry for every cycle that was marched and every jump.");
    bind_outcome(report, [](const Self &self) -> const WearReport & { return self.report; });
    report
       .def_prop_ro(
