@@ -346,7 +346,7 @@ def test_an_edge_of_hertz_moves():
     fitted = cattaneo.readout.fit_edge(cattaneo.readout.edge_tractions(problem, stuck.states[-1], edges[0]))
     both = design.edge_intensities(problem, stuck, stuck.last(), edges[0])
     assert [both.k_n.value, both.k_t.value] == pytest.approx([float(fitted.k_n), float(fitted.k_t)], rel=1e-9)
-    # Of a contact that is stuck shear is as Q, which is the second load.
+    # The shear of a stuck contact is proportional to Q, which is the second load.
     by = design.Sensitivity(problem, stuck).gradient(both.k_t).by
     assert by.multipliers[1, 2] * 0.2 == pytest.approx(both.k_t.value, rel=1e-9)
     with pytest.raises(cattaneo.InputError, match="pressed"):

@@ -135,7 +135,7 @@ def test_coat_of_a_dovetail_against_the_work_of_its_tractions(run):
         run.write("coated.json", json.dumps(flank))
         run("march", "--reduced", run.folder / "coated.json", "--history", history, "--increments", 200, "--stepping", "fixed",
             "--frames", "all", "--csv", run.folder / "m")
-        # Of a row only time, q and slip are read; a node's rows are as many lines apart as there are nodes.
+        # Only time, q and slip of a row are read. The rows of a node are as many lines apart as there are nodes.
         rows = [line.split(",") for line in run.text("m_nodes.csv").splitlines()]
         at = [rows[0].index(name) for name in ("time", "q", "slip")]
         states = [[float(row[k]) for k in at] for row in rows[1:] if float(row[at[0]]) >= 3]
@@ -190,7 +190,7 @@ def test_counts_from_a_point_of_the_history_on(run):
 def test_sweeps_where_limits_hold(run):
     """Points of a sweep that limits do not allow are no better designs; loads whose sum stays are not swept one by one."""
     got = run.line("design --profile crown --curvature 0.3 --nodes 33 --lines 8")
-    # Of all crowns α x² + β x⁴ of the curvature 2α + 12 β x² up to 0.3, the flatter presses more at the ends: α is 0.15.
+    # Crowns are α x² + β x⁴, and their curvature 2α + 12 β x² is at most 0.3. A flatter one presses more at the ends, so α is 0.15.
     near(got["variables"][0], 0.15, 1e-6)
     assert got["best_of_lines"] <= 1e-6
     chosen = run.line("design --case problems/bolt_row.case.json --lines 8", code=1)

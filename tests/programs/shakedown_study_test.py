@@ -145,7 +145,7 @@ def test_limit_of_a_saved_block_on_a_rigid_plane(run):
 
 
 def test_other_laws_of_friction_have_a_largest_load(run):
-    """Of a block on a half-plane whose friction bends. The expected limits are those of a linear programme of the saved matrices
+    """A block on a half-plane has a law of friction that bends. The expected limits are those of a linear programme of the saved matrices
     (slip of the nodes and λ; at both ends of the cycle p >= 0 and -0.75 p, -(0.4 w + 0.25 p) <= q <= the same or 0.5 p, w the
     weights), solved by HiGHS."""
     file = run.folder / "law.json"
