@@ -156,7 +156,7 @@ Found found(const Wanted &wanted, const Eigen::VectorXd &start, DesignSettings s
 void bind_problem(nb::module_ &m)
 {
    nb::class_<DesignCase>(m, "DesignCase",
-                          "Loads that a design has to do with: a march from before any load.")
+                          "One case of loads of a design. It is marched from rest.")
       .def(
          "__init__",
          [](DesignCase *self, const std::string &name, const LoadHistory &history,
@@ -166,9 +166,9 @@ void bind_problem(nb::module_ &m)
                                   from ? finite(*from, "from_") : std::nan("")};
          },
          arg("name"), arg("history"), arg("weight") = 1.0, arg("from_") = nb::none(),
-         "name: in messages. weight: of what is asked of it; negative: as much of it as "
-         "possible. from_: states at the points of the history are asked from this time on; "
-         "None: the last alone.")
+         "name: used in messages.\nweight: of its responses; with a negative one they are made "
+         "large.\nfrom_: responses are taken at the points of the history from this time on; "
+         "None: at the last one alone.")
       .def_ro("name", &DesignCase::name)
       .def_ro("history", &DesignCase::history)
       .def_ro("weight", &DesignCase::weight)
@@ -180,9 +180,8 @@ void bind_problem(nb::module_ &m)
    using Self = Wanted;
    nb::class_<Self>(
       m, "DesignProblem",
-      "What may be chosen, and what for: variables x that add x[j] times a change "
-      "of parameters to those of the problem, between bounds and under linear "
-      "limits.")
+      "The choice and its goal: variables x add x[j] times a change of parameters to those of "
+      "the problem, between bounds and under linear limits.")
       .def(
          "__init__",
          [](Self *self, const ReducedProblem &problem, std::vector<DesignCase> cases,
@@ -221,7 +220,7 @@ void bind_problem(nb::module_ &m)
          "with_",
          [](const Self &self, Numbers x)
          { return self.problem.with(vector(x, "x", self.problem.low.size())); },
-         arg("x"), "The reduced problem of values x of the variables.")
+         arg("x"), "The reduced problem with values x of the variables.")
       .def("__repr__",
            [](const Self &self)
            {
@@ -254,9 +253,9 @@ void bind_problem(nb::module_ &m)
       arg("problem"), arg("start"), arg("count"),
       nb::sig("def spread_starts(problem: DesignProblem, start: numpy.typing.ArrayLike, "
               "count: int) -> list[numpy.ndarray]"),
-      "Other starts for a search: `count` points spread evenly over the box of the bounds, "
-      "each of which `start` goes toward as far as the limits let it, along those that it "
-      "meets.");
+      "Other starts for a search. `count` points are spread evenly over the box of the bounds. "
+      "From `start` each is approached as far as the limits allow, and along the limits that "
+      "are met.");
    m.def(
       "limit_curvature",
       [](Self &problem, double least, double most)
@@ -343,11 +342,10 @@ void bind_report(nb::module_ &m)
       },
       arg("problem"), arg("start"), nb::kw_only(), arg("settings") = DesignSettings(),
       arg("progress") = false, arg("stop") = nb::none(), arg("members"),
-      "Finds the variables that serve the goal, from a start within bounds and limits: an "
-      "optimum in its neighbourhood, contact is not convex.\n\n"
-      "Ctrl-C, `stop` and `progress` "
-      "are asked between iterations. A status other than 'optimal' is warned of "
-      "(OutcomeWarning).");
+      "Finds variables that serve the goal best, from a start within bounds and limits. The "
+      "optimum is local, because contact is not convex.\n\nCtrl-C, `stop` and `progress` are "
+      "asked between iterations. There is a warning (OutcomeWarning) for a status other than "
+      "'optimal'.");
 }
 
 } // namespace

@@ -131,10 +131,9 @@ void define_of_edge(nb::module_ &m, const char *name, double (*f)(const Edge &, 
 
 void bind_near_edge(nb::module_ &m)
 {
-   nb::class_<Edge>(
-      m, "Edge",
-      "What the contact edge knows of the contact at one instant: p = k_n √t, fully "
-      "stuck q = k_t/√t at the distance t from the edge.")
+   nb::class_<Edge>(m, "Edge",
+                    "The edge of a contact at one instant: p = k_n √t, and q = k_t/√t if "
+                    "nothing slipped, at the distance t from the edge.")
       .def(
          "__init__",
          [](Edge *self, double k_n, double k_t, double friction)
@@ -337,7 +336,8 @@ void bind_corner(nb::module_ &m)
 void bind_criteria(nb::module_ &m)
 {
    using Self = FatigueMaterial;
-   nb::class_<Self>(m, "FatigueMaterial", "What the criteria need of a material: N, mm, MPa.")
+   nb::class_<Self>(m, "FatigueMaterial",
+                    "Properties of a material for the criteria, in N, mm, MPa.")
       .def_ro("name", &Self::name)
       .def_ro("young", &Self::young)
       .def_ro("poisson", &Self::poisson)
@@ -375,9 +375,10 @@ void bind_criteria(nb::module_ &m)
       "plain_fatigue_cycle",
       [](const Self &material)
       { return array(Eigen::MatrixXd(plain_fatigue_cycle(material))); },
-      arg("material"), "What a plain specimen just endures, a cycle for critical_plane().");
+      arg("material"), "The cycle that a plain specimen just endures, for critical_plane().");
 
-   nb::class_<FrettingReport> report(m, "FrettingReport", "What the criteria say of an edge.");
+   nb::class_<FrettingReport> report(m, "FrettingReport",
+                                     "Results of the criteria for an edge.");
    report.def_ro("k_t_range", &FrettingReport::k_t_range)
       .def_ro("slip_zone", &FrettingReport::slip_zone)
       .def_ro("edge_stress", &FrettingReport::edge_stress)

@@ -40,9 +40,8 @@ void bind_edge_responses(nb::module_ &m)
       },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("cracked") = "second",
       nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
-      "Those of readout.fit_edge() from the tractions of a state; the place of the edge and "
-      "the "
-      "windows are those of now, and stay. K_T is that of a stuck contact: of trace_stuck().");
+      "K_N and K_T of readout.fit_edge() from the tractions of a state. The place of the edge "
+      "and the windows stay as they are. K_T needs a stuck contact: use trace_stuck().");
    nb::class_<CornerIntensities>(m, "CornerIntensities",
                                  "Strengths of the modes at a corner, as responses.")
       .def_ro("k_one", &CornerIntensities::k_one)
@@ -59,7 +58,7 @@ void bind_edge_responses(nb::module_ &m)
       },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("modes"),
       arg("cracked") = "second", nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
-      "Those of fretting.fit_corner() at an edge that is complete, of trace_stuck().");
+      "Strengths of fretting.fit_corner() at a complete edge. Use trace_stuck().");
    nb::class_<MovingEdge>(m, "MovingEdge", "An edge that moves, and the pressure's K_N there.")
       .def_ro("position", &MovingEdge::position, "arc length")
       .def_ro("k_n", &MovingEdge::k_n);
@@ -73,7 +72,8 @@ void bind_edge_responses(nb::module_ &m)
       },
       arg("problem"), arg("trace"), arg("state"), arg("edge"), nb::kw_only(),
       arg("settings") = FitSettings(), arg("members"),
-      "Both of one fit to the square of the pressure; for an edge that is not complete.");
+      "Position and K_N, both from one fit to the square of the pressure; for an edge that is "
+      "not complete.");
    m.def(
       "trace_stuck",
       [](const ReducedProblem &problem, const Trace &trace, std::size_t pressed,
@@ -82,7 +82,7 @@ void bind_edge_responses(nb::module_ &m)
       },
       arg("problem"), arg("trace"), arg("pressed"), arg("loaded"),
       "The trace up to its state `pressed`, and then readout.fully_stuck() under the loads of "
-      "its state `loaded`: what K_T is read from.");
+      "its state `loaded`. K_T is read from it.");
 }
 
 LimitGradient known_or_warned(const char *what, LimitGradient gradient)

@@ -124,8 +124,8 @@ auto right(Operation operation)
 void bind_trace(nb::module_ &m)
 {
    nb::class_<Tie>(m, "Tie",
-                   "A node that meets the laws of two states at once at the end of an "
-                   "increment: derivatives there are one-sided, those of `taken`.")
+                   "A node that meets the laws of two states at the end of an increment. "
+                   "Derivatives there are one-sided, those of `taken`.")
       .def_ro("state", &Tie::state, "of the trace")
       .def_ro("node", &Tie::node)
       .def_ro("taken", &Tie::taken, "that the trace has")
@@ -154,7 +154,7 @@ void bind_trace(nb::module_ &m)
       };
    };
    nb::class_<Self>(m, "MarchTrace",
-                    "All states of a march, which is what its derivatives are taken of.")
+                    "All states of a march, from which derivatives are computed.")
       .def_prop_ro(
          "problem", [](const Self &self) { return self.problem; },
          nb::sig("def problem(self) -> cattaneo._core.ReducedProblem"))
@@ -283,7 +283,7 @@ void bind_responses(nb::module_ &m)
    const auto over = [](const R &a, const R &b) { return a / b; };
    nb::class_<R>(m, "Response",
                  "A number that a march returned, with its derivatives by the states of the "
-                 "trace; + - * / make others of it.")
+                 "trace. + - * / combine responses.")
       .def(
          "__init__",
          [](R *self, double value, const Weights &weights)
@@ -403,7 +403,7 @@ void bind_responses(nb::module_ &m)
          arg("state"), arg("arm") = nb::none(), "sum of p, times a lever arm of each node")
       .def("multiplier", of_pattern(&Responses::multiplier), arg("state"), arg("pattern"))
       .def("conjugate", of_pattern(&Responses::conjugate), arg("state"), arg("pattern"),
-           "of a force its displacement, of a displacement its reaction")
+           "the displacement of a force, or the reaction of a displacement")
       .def(
          "secant_stiffness",
          [](const Self &self, std::size_t from, std::size_t to, const std::string &pattern)
@@ -414,9 +414,9 @@ void bind_responses(nb::module_ &m)
 
 void bind_parameters(nb::module_ &m)
 {
-   nb::class_<StiffnessChange>(m, "StiffnessChange",
-                               "How stiffness and loads change with a number that they are "
-                               "linear in, a modulus for instance.")
+   nb::class_<StiffnessChange>(
+      m, "StiffnessChange",
+      "Change of stiffness and loads by a number in which they are linear, such as a modulus.")
       .def(
          "__init__",
          [](StiffnessChange *self, Numbers K, Numbers loads, Numbers H)
@@ -437,8 +437,8 @@ void bind_parameters(nb::module_ &m)
 
    using Self = Parameters;
    nb::class_<Self>(m, "Parameters",
-                    "One number for each parameter of a march: how much it changes, or the "
-                    "derivative of a response by it. No entries: no change.")
+                    "A number for each parameter of a march: its change, or the derivative of "
+                    "a response by it. No entries: no change.")
       .def(
          "__init__",
          [](Self *self, Numbers friction, Numbers gap, Numbers multipliers, Numbers stiffness,
@@ -466,7 +466,7 @@ void bind_parameters(nb::module_ &m)
       .def_prop_ro("wear", viewed(&Self::wear), "of Archard's k of each node")
       .def(
          "dot", [](const Self &self, const Self &change) { return self.dot(change); },
-         arg("change"), "Sum of derivative times change, of whatever both have.");
+         arg("change"), "Sum of derivative times change, over the parameters that both have.");
 }
 
 } // namespace
@@ -502,11 +502,10 @@ void bind_sensitivity(nb::module_ &m)
          arg("response"), "Derivative of a response along the change.");
 
    using Self = Derivatives;
-   nb::class_<Self>(
-      m, "Sensitivity",
-      "Derivatives of what a march returned by its parameters, exact in the "
-      "discrete problem, with the states that its nodes had. Where a node has two "
-      "at once they are one-sided, see ties().")
+   nb::class_<Self>(m, "Sensitivity",
+                    "Derivatives of the results of a march by its parameters. They are exact "
+                    "in the discrete problem, with the states that its nodes had. If a node "
+                    "meets the laws of two states they are one-sided, see ties().")
       .def(
          "__init__",
          [](Self *self, const ReducedProblem &problem, const Trace &trace,
@@ -521,7 +520,8 @@ void bind_sensitivity(nb::module_ &m)
             new (self) Self(std::move(made));
          },
          arg("problem"), arg("trace"), arg("stiffness") = nb::tuple(),
-         "problem: as it was marched. stiffness: changes, by which there are derivatives too.")
+         "problem: as it was marched. stiffness: changes of the stiffness by which derivatives "
+         "are wanted too.")
       .def(
          "gradient",
          [](Self &self, const Response &response)

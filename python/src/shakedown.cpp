@@ -115,7 +115,7 @@ void bind_limits(nb::module_ &m)
                          { return limit_problem(std::move(of), std::move(loads)); });
       },
       arg("problem"), arg("cycle"),
-      "The expensive part of a limit, once for a sweep over friction or cycles.");
+      "The expensive part of a limit. Compute it once for a sweep over friction or cycles.");
 
    using Self = LimitReport;
    nb::class_<Self>(m, "LimitReport", "A shakedown limit between proven bounds.")
@@ -129,7 +129,8 @@ void bind_limits(nb::module_ &m)
       .def_ro("limit", &Self::limit, "the safe side")
       .def_ro("lower", &Self::lower)
       .def_ro("upper", &Self::upper)
-      .def_prop_ro("slip", viewed(&Self::slip), "with which the contact sticks throughout")
+      .def_prop_ro("slip", viewed(&Self::slip),
+                   "the slip with which the contact sticks throughout")
       .def_prop_ro(
          "mechanism_slip", [](const Self &self) { return array(self.mechanism.slip); },
          "(c n, vertices), of the dual mechanism")
@@ -142,8 +143,8 @@ void bind_limits(nb::module_ &m)
          "slip changes the pressures: some start shakes down below the limit, and not every "
          "start has to")
       .def_ro("every_start", &Self::every_start,
-              "lower limit λ1 of a load, or a load factor that it is proven not to be below: "
-              "there every start shakes down; nan if nothing is known")
+              "lower limit λ1 of a load, below which every start shakes down, or a proven "
+              "lower bound of it; nan if nothing is known")
       .def_ro("starts", &Self::starts, "which starts shake down, in one sentence")
       .def_prop_ro(
          "assumption", [](const Self &) { return std::string(limit_assumption); },
@@ -151,7 +152,8 @@ void bind_limits(nb::module_ &m)
       .def_ro("of_the_mesh", &Self::of_the_mesh,
               "why the limit is one of this mesh only, '' if nothing shows that it is")
       .def_prop_ro("statement", &Self::statement, nb::sig("def statement(self) -> list[str]"),
-                   "assumption, starts, and whether it is one of the mesh: a sentence each")
+                   "three sentences: the assumption, which starts shake down, and whether the "
+                   "mesh decides the limit")
       .def_ro("iterations", &Self::iterations)
       .def_ro("seconds", &Self::seconds)
       .def_ro("counters", &Self::counters)
@@ -297,7 +299,7 @@ void bind_closed(nb::module_ &m)
 void bind_estimates(nb::module_ &m)
 {
    nb::class_<PointwiseEstimate>(m, "PointwiseEstimate",
-                                 "An estimate that looks at one node at a time.")
+                                 "An estimate of the limit from one node at a time.")
       .def_ro("value", &PointwiseEstimate::value)
       .def_ro("node", &PointwiseEstimate::node)
       .def("__float__", [](const PointwiseEstimate &self) { return self.value; })
@@ -340,7 +342,7 @@ void bind_estimates(nb::module_ &m)
       .def_ro("elastic_slip", &TransientReport::elastic_slip,
               "largest slip of the stuck contact if it is let go, the scale of cycle_slip")
       .def_prop_ro("cycle_slip", viewed(&TransientReport::cycle_slip),
-                   "way of each node that bears at some time of the last cycle")
+                   "slip path in the last cycle of each node that bears at some time of it")
       .def_prop_ro(
          "opened", [](const TransientReport &self) { return array_of_indices(self.opened); },
          "nodes that are open at some time of the last cycle")

@@ -118,8 +118,8 @@ void bind_state(nb::module_ &m)
 {
    using Self = WearState;
    nb::class_<Self> state(m, "WearState",
-                          "All that the future of a wearing contact depends on. Arrays are "
-                          "views that cannot be written to.");
+                          "The state of a wearing contact: all that its future depends on. "
+                          "Arrays are views that cannot be written to.");
    bind_validate(state);
    bind_copies(state);
    state
@@ -202,7 +202,8 @@ void bind_report(nb::module_ &m)
       .def_ro("depth", &WearRecord::depth, "largest so far")
       .def_ro("dissipation", &WearRecord::dissipation, "energy that friction took so far")
       .def_ro("loss", &WearRecord::loss,
-              "of it in the last cycle; after a jump, in a cycle of the worn contact")
+              "energy that friction takes in the last cycle; after a jump, in a cycle of the "
+              "worn contact")
       .def_ro("error", &WearRecord::error,
               "estimate of the largest error of depth so far, by all jumps")
       .def("__repr__",
@@ -243,8 +244,8 @@ void bind_report(nb::module_ &m)
       .def_prop_ro("dissipation", of_records(&WearRecord::dissipation),
                    "energy that friction took so far")
       .def_prop_ro("loss", of_records(&WearRecord::loss),
-                   "of the last cycle of each record; after a jump, of a cycle of the worn "
-                   "contact")
+                   "energy that friction takes in the last cycle of each record; after a jump, "
+                   "in a cycle of the worn contact")
       .def_prop_ro("errors", of_records(&WearRecord::error),
                    "estimates of the largest error of depth so far, by all jumps")
       .def_prop_ro(
@@ -255,27 +256,26 @@ void bind_report(nb::module_ &m)
                                 self.report.last, self.state.contact);
          },
          nb::sig("def last(self) -> cattaneo._core.MarchReport"), "of the last cycle marched")
-      .def_prop_ro("marched", copied(&Self::report, &WearReport::marched),
-                   "cycles, also those that only look where a jump leads")
+      .def_prop_ro(
+         "marched", copied(&Self::report, &WearReport::marched),
+         "cycles that were marched, also those that are marched only to see where a jump leads")
       .def_prop_ro("jumps", copied(&Self::report, &WearReport::jumps))
       .def_prop_ro(
          "error", copied(&Self::report, &WearReport::error),
-         "estimate of the largest error of depth at the end that comes of jumps, with all that "
-         "grew on the way; infinite where the way is too unstable for an estimate")
+         "estimate of the largest error of depth at the end by jumps, including how errors of "
+         "early jumps have grown; infinite if the wear is too unstable for an estimate")
       .def_prop_ro("reached", copied(&Self::report, &WearReport::reached),
                    "True if depths are estimated to be right to the tolerance")
-      .def_prop_ro(
-         "remark", copied(&Self::report, &WearReport::remark),
-         "what a warning says too: where errors of jumps grew on the way, and where no "
-         "equilibrium "
-         "was found at the worn gap; else empty")
+      .def_prop_ro("remark", copied(&Self::report, &WearReport::remark),
+                   "the text of the warning if errors of jumps have grown, or if no "
+                   "equilibrium was found at the worn gap; else empty")
       .def_prop_ro("explicit_limit", copied(&Self::report, &WearReport::explicit_limit),
                    "most cycles that may share one explicit update of the gap")
       .def_prop_ro("implicit_cycles", copied(&Self::report, &WearReport::implicit_cycles))
       .def_prop_ro("steady_cycle", copied(&Self::report, &WearReport::steady_cycle),
-                   "from which each cycle wears as the next does; 0: none")
+                   "first of the cycles that wear alike; 0: none")
       .def_prop_ro("final_cycle", copied(&Self::report, &WearReport::final_cycle),
-                   "at which wear had come to its end; 0: it has not")
+                   "cycle at which wear ended; 0: it has not ended")
       .def_prop_ro("counters", copied(&Self::report, &WearReport::counters))
       .def_prop_ro("seconds", copied(&Self::report, &WearReport::seconds))
       .def("__repr__", &brief);
@@ -332,14 +332,13 @@ void bind_wear_march(nb::module_ &m)
       "'converged' is warned of (OutcomeWarning).");
 
    using Self = Worn;
-   nb::class_<Self> end(
-      m, "WornOut",
-      "A state in which a cycle wears off nothing more. A march may come to another one where "
-      "nodes stick that it finds worn.");
+   nb::class_<Self> end(m, "WornOut",
+                        "A state in which a cycle wears off nothing more. A march may end in "
+                        "another one, with wear at nodes that stick here.");
    bind_outcome(end, [](const Self &self) -> const WornOut & { return self.end; });
    end.def_prop_ro("depth", copied(&Self::end, &WornOut::depth), "worn off at each node")
       .def_prop_ro("overlap", copied(&Self::end, &WornOut::overlap),
-                   "how far the surfaces would overlap unworn; crosses zero where wear ends")
+                   "overlap that the unworn surfaces would have; crosses zero where wear ends")
       .def_prop_ro(
          "stick", [](const Self &self) { return truths(self.end.stick); },
          "nodes that never slip in a cycle: they alone carry the loads")
@@ -353,7 +352,7 @@ void bind_wear_march(nb::module_ &m)
          "slip_range", [](const Self &self) { return array(self.slip_range); },
          "of each node over the unworn cycle: largest - smallest slip")
       .def_prop_ro("loss", copied(&Self::end, &WornOut::loss),
-                   "energy of a cycle, over that of the unworn contact")
+                   "energy that a cycle takes, over that of the unworn contact")
       .def_prop_ro("searches", copied(&Self::end, &WornOut::searches),
                    "sets of sticking nodes that were tried")
       .def("__repr__",
@@ -398,15 +397,14 @@ void bind_wear_march(nb::module_ &m)
       arg("problem"), arg("history"), arg("contact") = nb::none(), nb::kw_only(),
       arg("settings") = MarchSettings(), arg("progress") = false, arg("stop") = nb::none(),
       arg("members"),
-      "A fully worn state of partial slip, without the cycles that lead there: nodes that "
-      "slip carry nothing, nodes that stick stay where they are, depth is what overlaps at any "
-      "point of the cycle.\n\n"
-      "history: with a cycle. contact: a state before its opening part or at the start of its "
-      "cycle, of the unworn problem; rest if None. Wear is that of any law without a "
-      "threshold.\n\n"
-      "This is a state in which wear ends: the one that a march comes to may be another where "
-      "nodes stick that it finds worn. Where A = C, B = 0 (half-planes of one material) and "
-      "pressures do not vary in the cycle it is the same.");
+      "A fully worn state of partial slip, without the cycles that lead there. Slipping nodes "
+      "carry nothing and sticking nodes keep their place. The depth is the largest overlap at "
+      "any point of the cycle.\n\nhistory: with a cycle. contact: a state of the unworn "
+      "problem before the opening part or at the start of the cycle; rest if None. The result "
+      "holds for any law of wear without a threshold.\n\nThis is one state in which wear ends. "
+      "The end of a march may be another, with wear at nodes that stick here. If A = C, B = 0 "
+      "(half-planes of one material) and pressures do not vary in the cycle both are the "
+      "same.");
 }
 
 } // namespace
