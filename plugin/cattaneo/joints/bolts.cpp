@@ -11,8 +11,8 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// What is marched with the same bolts as shanks: a piece of the opening part, or all after the
-/// last tightening.
+/// A part of the march in which the same bolts are shanks: a piece of the opening part, or all
+/// after the last tightening.
 struct BoltedJoint::Part
 {
    std::vector<bool> shanks; ///< which bolts are
@@ -36,7 +36,7 @@ ReducedProblem problem_of(Reduction reduction, const std::vector<Bolt> &bolts,
    return std::move(reduction.problem);
 }
 
-/// The report of a march and of the one that went on from its state.
+/// The report of a march joined with that of the march that continued from its state.
 MarchReport joined(const MarchReport &first, MarchReport then)
 {
    const auto put_before = [](auto &list, const auto &before)
@@ -61,7 +61,7 @@ MarchReport joined(const MarchReport &first, MarchReport then)
    return then;
 }
 
-/// Of a march that has not begun, to be joined with what comes.
+/// The report of a march that has not begun. Later reports are joined to it.
 MarchReport nothing_yet(double time)
 {
    MarchReport report;
@@ -154,7 +154,7 @@ int BoltedJoint::last_tightening(const LoadHistory &history) const
    return last;
 }
 
-/// A piece of the opening part, or what is left of it after the state's time.
+/// A piece of the opening part, or the rest of it after the time of the state.
 BoltedJoint::Part BoltedJoint::part(const LoadPiece &piece, const ContactState &state) const
 {
    Part made;
@@ -171,7 +171,7 @@ BoltedJoint::Part BoltedJoint::part(const LoadPiece &piece, const ContactState &
       if (made.shanks[b]) { first[k] = last[k] = state.multipliers[k]; }
       else
       {
-         // One that is not there yet carries nothing, to the last bit.
+         // A bolt that is not there yet has a force of exactly zero.
          const bool begins = piece.from[k] == 0 && share == 0;
          first[k] = begins || !turned ? 0 : now[static_cast<Index>(b)];
          made.start.multipliers[k] = first[k];
@@ -182,7 +182,8 @@ BoltedJoint::Part BoltedJoint::part(const LoadPiece &piece, const ContactState &
    return made;
 }
 
-/// The first of the shanks that pushes by more than round-off; as many as there are: none.
+/// Number of the first shank that pushes by more than round-off. The number of shanks if none
+/// does.
 std::size_t BoltedJoint::pushing(const Part &part, const ContactState &state) const
 {
    const VectorXd now = approaches(part.problem, state);
@@ -196,8 +197,8 @@ std::size_t BoltedJoint::pushing(const Part &part, const ContactState &state) co
    return bolts_.size();
 }
 
-/// To where the force of a bolt is zero, between a state in which it pulls and one in which it
-/// pushes: by regula falsi over the share of the way (Illinois).
+/// Goes to the load at which the force of a bolt is zero, between a state in which it pulls and
+/// one in which it pushes. Uses regula falsi over the share of the way (Illinois).
 void BoltedJoint::go_back(const Part &part, const ContactState &before,
                           const ContactState &beyond, std::size_t bolt,
                           const MarchSettings &settings, ContactState &state) const
@@ -215,7 +216,7 @@ void BoltedJoint::go_back(const Part &part, const ContactState &before,
    double low = 0, high = 1, at_low = force(before), at_high = force(beyond);
    const double small = 1e-10 * std::abs(before.multipliers[load(bolt)]);
    state = before;
-   int side = 0; // on which the last one was
+   int side = 0; // side of zero of the last force
    for (int k = 0; k < 100 && force(state) > small; ++k)
    {
       const double share = low + (high - low) * at_low / (at_low - at_high),
@@ -235,13 +236,13 @@ void BoltedJoint::go_back(const Part &part, const ContactState &before,
       if (pulls) { state = tried; }
       (pulls ? low : high) = share;
       (pulls ? at_low : at_high) = found;
-      // The end that stays twice counts for half.
+      // An end that stays a second time counts half (Illinois).
       if (side == (pulls ? 1 : -1)) { (pulls ? at_high : at_low) *= 0.5; }
       side = pulls ? 1 : -1;
    }
 }
 
-/// As march() of a part's problem; what is observed are states of problem().
+/// march() of the problem of one part. The observer gets states of problem().
 MarchReport BoltedJoint::march(const Part &part, ContactState &state,
                                const MarchSettings &settings,
                                const MarchObserver &observer) const
@@ -305,7 +306,7 @@ MarchReport BoltedJoint::march(const LoadHistory &history, ContactState &state,
 {
    const int last = last_tightening(history);
    MarchReport report = nothing_yet(state.time);
-   // 1. Piece by piece as far as bolts are tightened.
+   // 1. March piece by piece as long as bolts are tightened.
    for (int k = 0; k <= last; ++k)
    {
       const LoadPiece piece = history.piece(k);
@@ -319,7 +320,7 @@ MarchReport BoltedJoint::march(const LoadHistory &history, ContactState &state,
       report = joined(report, march(part(piece, state), state, of_piece, observer));
       if (report.status != FrictionStatus::converged) { return report; }
    }
-   // 2. The rest, in which all bolts are shanks and nobody turns a nut.
+   // 2. March the rest, in which all bolts are shanks.
    Part rest{std::vector<bool>(bolts_.size(), true), problem_, history, state};
    for (std::size_t b = 0; b < bolts_.size(); ++b)
    {

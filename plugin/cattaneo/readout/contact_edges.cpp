@@ -24,8 +24,8 @@ std::vector<bool> closed_nodes(const ReducedProblem &problem, const ContactState
    return nodes;
 }
 
-/** Forces and displacements when v is given at the tied nodes and w at the closed ones, and the
-    others carry none: q = A v + Bᵀ w + q0, p = B v + C w + p0. */
+/** Forces and displacements for given v at the tied nodes and given w at the closed ones. The
+    other nodes carry no such force: q = A v + Bᵀ w + q0, p = B v + C w + p0. */
 void release(const ReducedProblem &problem, const std::vector<bool> &tied,
              const std::vector<bool> &shut, const VectorXd &clamped, ContactState &state)
 {
@@ -103,7 +103,7 @@ double middle_of(const ReducedProblem &problem, const Zone &stretch)
       if (!mirrored(problem, end)) { continue; }
       const std::vector<Index> &held = problem.held;
       const bool on_plane = std::count(held.begin(), held.end(), end) > 0;
-      // A node on the axis of revolution is left out of the line: this one is beside it.
+      // The node on the axis of revolution is not in the line. This one is beside it.
       const double beside =
          on_plane || problem.position.rows() == 0 ? 0.0 : std::abs(problem.position(end, 0));
       return problem.arc_length[end] + (end == stretch.first ? -beside : beside);
@@ -130,9 +130,9 @@ void refuse_at_end(const ReducedProblem &problem, ContactEdge &edge)
    }
    else
    {
-      text << ": the edge is complete (a corner) or cut off there, its pressure does not "
-              "fall to zero as K_N √t and neither K_N nor K_T exists; fit the corner's "
-              "own intensities, or lengthen the line if it was cut off.";
+      text << ": the edge is complete (a corner) or cut off there. Its pressure does not "
+              "fall to zero as K_N √t, so that it has neither K_N nor K_T. Fit the "
+              "intensities of the corner, or lengthen the line if it was cut off.";
    }
    edge.why_not = text.str();
 }
@@ -144,9 +144,9 @@ struct Zero
    double error = std::numeric_limits<double>::infinity();
 };
 
-/** Zero of a parabola through values at distances t (increasing, in spacings), nearest to t =
-    0. The number of values is the one of least error: the larger of the standard error and the
-    change when a cubic is fitted. */
+/** Zero nearest to t = 0 of a parabola through values at distances t (increasing, in spacings).
+    As many values are used as give the smallest error. The error is the larger of the standard
+    error and the change when a cubic is fitted. */
 Zero nearest_zero(const VectorXd &t, const VectorXd &values, const VectorXd &weights)
 {
    Zero best;
@@ -190,7 +190,7 @@ Zero zero_near_end(const ReducedProblem &problem, Index end, Index last, int sid
       weights[k] = problem.weights[i];
    }
    Zero zero = nearest_zero(t, values, weights);
-   // Further than a spacing from where it must be: not found.
+   // It must lie within a spacing, else it was not found.
    if (!(zero.position > -2 && zero.position < 1)) { return {}; }
    return {s[end] + side * h * zero.position, h * zero.error};
 }
@@ -228,7 +228,7 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
       const Index half = side > 0 ? edge.last - 1 : edge.first + 1;
       Zero zero = zero_near_end(problem, end, half, side,
                                 [&](Index i) { return std::pow(strain[i] / q[i], 2); });
-      // Inwards: a tied node beyond the edge may be the last of the line.
+      // Search inwards, because the last node of the line may be tied beyond the edge.
       const double h = std::abs(s[end + side] - s[end]);
       if (!std::isfinite(zero.error)) { zero = {s[end] - 0.5 * side * h, 0.5 * h}; }
       positions.push_back(zero);
@@ -248,7 +248,7 @@ void read_slip_zone(const ReducedProblem &problem, const std::vector<Zone> &all,
    if (edge.side < 0) { std::reverse(inside.begin(), inside.end()); }
    if (inside.front().state == NodeState::stick)
    {
-      // Slip between the last two nodes does not show.
+      // Slip between the last two nodes is not visible.
       const Index end = edge.side > 0 ? stretch.first : stretch.last;
       edge.slip_zone_error =
          !edge.why_not.empty()
@@ -268,7 +268,8 @@ void read_slip_zone(const ReducedProblem &problem, const std::vector<Zone> &all,
    edge.slip_zone = 2 * edge.half_width;
 }
 
-/// The edges of a stretch of contact (of its half, if the other is its mirror image), located.
+/// Locates the edges of a stretch of contact, or of its half if the other half is its mirror
+/// image.
 std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactState &loaded,
                                   const Zone &stretch, const FitSettings &settings)
 {
@@ -311,8 +312,8 @@ std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactSt
       }
       else
       {
-         // p² is smooth, and a parabola for Hertz, but its last nodes are not: it is asked
-         // only where zones() has found no more than two nodes to lie between.
+         // p² is smooth (a parabola for Hertz) but for its last nodes. Its zero is used only if
+         // it is surer than the border of zones().
          const VectorXd p = tractions(problem, loaded.p);
          const Index end = side > 0 ? edge.first : edge.last;
          const Zero zero = zero_near_end(problem, end, side > 0 ? edge.last : edge.first, side,
@@ -357,7 +358,7 @@ void read_k_n(const ReducedProblem &problem, const ContactState &loaded, Cracked
    if (k_n.value > 0) { k_n.relative_error += change / k_n.value; }
 }
 
-/// Two stuck solutions about an edge: where their shear is singular.
+/// Places at which the shear of two stuck solutions about an edge is singular.
 struct StuckPair
 {
    Zero from;              ///< the nodes in contact are tied
@@ -380,8 +381,8 @@ std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactS
       const Index end = side > 0 ? edges[e].first : edges[e].last;
       pair.tied[end - side] = true;
       pair.to = singular_positions(problem, loaded, contact, edges, pair.tied)[e];
-      // One node more moves the singularity by about a spacing. Where it was not found so,
-      // both are the middles beyond the last tied nodes.
+      // One more tied node moves the singularity by about a spacing. If it was not found there,
+      // take the middle beyond the last tied node, in both solutions.
       const double h = std::abs(s[end - side] - s[end]),
                    moved = side * (pair.from.position - pair.to.position);
       if (std::max(pair.from.error, pair.to.error) >= 0.5 * h || moved < 0.5 * h ||
@@ -390,7 +391,8 @@ std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactS
          pair.from = {s[end] - 0.5 * side * h, 0.5 * h};
          pair.to = {s[end] - 1.5 * side * h, 0.5 * h};
       }
-      // The spread of a fit is no bound: as zones() has it, a quarter of a spacing at least.
+      // The spread of a fit is no bound. The least error is a quarter of a spacing, as in
+      // zones().
       pair.from.error = std::max(pair.from.error, 0.25 * h);
       pair.to.error = std::max(pair.to.error, 0.25 * h);
       pairs.push_back(pair);
@@ -409,7 +411,7 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
    const auto fitted = [&](const ContactState &stuck, std::size_t e, double position)
    {
       EdgeTractions tractions = tractions_from(problem, stuck, edges[e], cracked, position);
-      // A node tied outside the contact has no pressure of its own, but counts.
+      // A node that is tied outside the contact has no pressure, but is fitted too.
       std::fill(tractions.pressure.begin(), tractions.pressure.end(), 1.0);
       return fit_edge(tractions, settings).k_t;
    };
@@ -440,13 +442,13 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
    for (std::size_t e = 0; e < count; e++)
    {
       FittedIntensity &k_t = edges[e].k_t;
-      // The shear that pressing left is bounded by friction and has no K_T: what the fit reads
-      // of it, it reads too much of the whole.
+      // Friction bounds the shear that pressing has left, so it has no K_T. The K_T that a fit
+      // finds in it is an error of the whole.
       const double left = std::abs(fitted(pressed, e, pairs[e].from.position).value);
       const double error = k_t.relative_error * std::abs(k_t.value) + doubtful[e] + left;
       k_t.value = value[e];
       k_t.relative_error = error > 0 ? error / std::abs(k_t.value) : 0.0;
-      // Round-off of what friction can bear is no shear.
+      // Shear below the round-off of the friction limit is zero.
       const double bears = edges[e].friction * edges[e].k_n.value * edges[e].half_width;
       if (std::abs(k_t.value) <= 1e-9 * bears) { k_t.value = k_t.relative_error = 0; }
    }
@@ -529,7 +531,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
          edges.push_back(edge);
       }
    }
-   // Those that have intensities, which then take their places again.
+   // Fit only the edges that have intensities, then put them back in their places.
    const auto has_some = [](const ContactEdge &edge) { return edge.why_not.empty(); };
    std::vector<ContactEdge> read;
    std::copy_if(edges.begin(), edges.end(), std::back_inserter(read), has_some);

@@ -50,7 +50,8 @@ FittedIntensity fit_in_window(const UsableSamples &usable, const std::vector<dou
    FittedIntensity best =
       *std::min_element(fits.begin(), fits.end(),
                         [&](const auto &a, const auto &b) { return error(a) < error(b); });
-   // The least of many errors is small by luck too: windows that are nearly as good must agree.
+   // The smallest of many errors may be small by chance. Windows that are nearly as good must
+   // agree.
    double spread = error(best);
    for (const FittedIntensity &other : fits)
    {

@@ -9,14 +9,14 @@ namespace cattaneo
 
 struct ContactState;
 
-/** Whether a march stayed where displacements are small: nodes go on facing what they faced,
-    and gaps are measured along the normals of the beginning. Beyond that results are those of
-    another problem, without any sign of it in themselves. */
+/** Did a march stay where displacements are small? The theory assumes that nodes keep the place
+    opposite them, and that gaps are measured along the initial normals. Beyond that results are
+    those of another problem, and nothing in them shows it. */
 class SmallDisplacements
 {
 public:
-   /// `even`: interfaces, by their number, whose obstacle is the same wherever a node slides,
-   /// as a straight rigid line is; of them slip is not limited. The reduction must outlive it.
+   /// `even` says for each interface whether its obstacle is the same wherever a node slides,
+   /// as a straight rigid line is. Slip is not limited there. The reduction must outlive this.
    explicit SmallDisplacements(const Reduction &reduction, std::vector<bool> even = {});
 
    /// A state that the march has reached.

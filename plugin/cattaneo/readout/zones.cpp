@@ -66,8 +66,8 @@ struct Bracket
       return zero(least_squares(powers(x, degree), y));
    }
 
-   /// The edge at `best` if that is between the two nodes or near; `other` tells how sure it
-   /// is, but not surer than `least`, in spacings.
+   /// The edge at `best` if that is between the two nodes or near. Its error is the difference
+   /// from `other`, at least `least`, in spacings.
    bool accept(double best, double other, double least, ZoneBorder &edge) const
    {
       if (!(best > -1.3 && best < 0.3)) { return false; }
@@ -101,17 +101,17 @@ ZoneBorder separation_edge(const Bracket &bracket, const VectorXd &pressure2)
    return edge;
 }
 
-/// An edge from the side where a displacement vanishes at it: (displacement)^(2/3), a parabola
-/// through five nodes behind the first one. Much smoother than nodal forces, but more nodes
-/// would reach into whatever ends the zone on its other side.
+/// An edge from the side on which a displacement vanishes at it. (displacement)^(2/3) is
+/// extrapolated by a parabola through five nodes behind the first one. It is much smoother than
+/// nodal forces. More nodes would reach too near to the other end of the zone.
 bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, ZoneBorder &edge)
 {
    return bracket.accept(bracket.extrapolate(displacement23, 1, 6, 2),
                          bracket.extrapolate(displacement23, 1, 5, 2), by_parabola, edge);
 }
 
-/// Slip front from the slipping side: a straight line where there are only few nodes, and where
-/// there are but two the one through them, which nothing confirms.
+/// Slip front from the slipping side. With few nodes a straight line is used, with two the line
+/// through them, which nothing confirms.
 bool slip_front(const Bracket &bracket, const VectorXd &way, ZoneBorder &edge)
 {
    if (displacement_edge(bracket, way, edge)) { return true; }
@@ -123,8 +123,8 @@ bool slip_front(const Bracket &bracket, const VectorXd &way, ZoneBorder &edge)
           bracket.accept(last_two, std::numeric_limits<double>::quiet_NaN(), 1.0, edge);
 }
 
-/// Edge of a stick zone from its own side: squared frictional reserve. Nodes that stick on the
-/// limit have none, and say nothing of where slip ends.
+/// Edge of a stick zone from its own side, by the squared frictional reserve. Nodes that stick
+/// on the limit have no reserve, so they do not show where slip ends.
 ZoneBorder stick_edge(const Bracket &bracket, const VectorXd &reserve2)
 {
    ZoneBorder edge = bracket.middle();
@@ -155,7 +155,7 @@ void check_line(const ReducedProblem &problem)
            "be set (one_chain() if it is one line)");
 }
 
-/// Without reserve and way.
+/// The data without reserve and slip path.
 Profiles profiles(const ReducedProblem &problem, const ContactState &state)
 {
    check_line(problem);
@@ -212,7 +212,8 @@ private:
    const std::vector<ContactChain> &chains_;
 };
 
-/// Node `in` is closed, `out` is open; the far end of the open zone.
+/// Border between the closed node `in` and the open node `out`. `open_end` is the far end of
+/// the open zone.
 ZoneBorder Reader::contact_edge(Index in, Index out, Index open_end) const
 {
    const Index step = out < in ? 1 : -1;
@@ -223,15 +224,16 @@ ZoneBorder Reader::contact_edge(Index in, Index out, Index open_end) const
    }
    const ZoneBorder inside = separation_edge({s_, in, out, closed_end}, at_.pressure2);
    ZoneBorder outside;
-   // A body that one node holds may have any tilt: its opening says nothing of the edge.
+   // A body on one node may have any tilt, so its opening does not show the edge.
    const bool tells = closed_end != in;
    return tells && displacement_edge({s_, out, in, open_end}, at_.opening, outside)
              ? surer(outside, inside)
              : inside;
 }
 
-/// Node `in` sticks, `out` slips; the far ends of both zones. Where the front retreats, slip
-/// does not vanish at it and its extrapolation is in doubt.
+/// Border between the sticking node `in` and the slipping node `out`, with the far ends of both
+/// zones. Where the front retreats slip does not vanish at it, and its extrapolation is
+/// doubtful.
 ZoneBorder Reader::slip_edge(Index in, Index out, Index stick_end, Index slip_end) const
 {
    const ZoneBorder inside = stick_edge({s_, in, out, stick_end}, at_.reserve2);
@@ -256,7 +258,8 @@ ZoneBorder Reader::border(const Zone &left, const Zone &right) const
    return {s_[i] + fraction * (s_[j] - s_[i]), s_[j] - s_[i]};
 }
 
-/// A zone of a node or two may come out inside out: its nodes are all that is known of it.
+/// The borders of a zone of one or two nodes may come out in the wrong order. Then only its
+/// nodes are known.
 void Reader::untangle(std::vector<Zone> &all) const
 {
    for (std::size_t k = 0; k < all.size(); ++k)
@@ -275,10 +278,11 @@ void Reader::untangle(std::vector<Zone> &all) const
    }
 }
 
-/// Tractions at a corner that is in contact are singular, and wrong over the first few nodes: a
-/// border four nodes from it may as well lie there, and the doubt fades as the number of nodes
-/// between. (A rule: 16 spacings over that number cover what uniform meshes of 12 to 80
-/// elements leave of borders on finer ones.) Nodes i and j have the border between them.
+/// Error of a border near a corner that is in contact. Tractions there are singular, and wrong
+/// over the first few nodes, so that a border four nodes from the corner may lie at it. The
+/// error falls with the number of nodes between. 16 spacings over that number is a rule. It
+/// covers the differences of borders between uniform meshes of 12 to 80 elements and finer
+/// ones. The border lies between nodes i and j.
 double Reader::doubt_of_ends(Index i, Index j, double position) const
 {
    double most = 0;
@@ -338,8 +342,8 @@ std::vector<Zone> Reader::zones()
    return result;
 }
 
-/// The borders of a closed line, from as many nodes on either side wherever it begins: zones
-/// first to last-1 are its own.
+/// Borders of the zones `first` to `last` - 1 of a closed line. Each is read with as many nodes
+/// on either side, wherever the line begins.
 void read_loop(const ReducedProblem &problem, const Profiles &at, const VectorXd &shear,
                const ContactChain &loop, Zone *first, Zone *last)
 {
@@ -351,7 +355,7 @@ void read_loop(const ReducedProblem &problem, const Profiles &at, const VectorXd
              : s[end] - s[end - 1];
    const double round = s[end] + closing - s[loop.first];
    last[-1].to = {s[loop.first] + round, 0};
-   // The same line twice, one after the other: what lies in the middle of it is read.
+   // Put the line twice, one after the other, and read the borders in the middle.
    std::vector<Index> node(2 * n);
    Profiles twice;
    for (Index k = 0; k < 2 * n; ++k)
@@ -482,7 +486,7 @@ Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones)
    };
    doubt(stick.first, -1, stick.from);
    doubt(stick.last, 1, stick.to);
-   // One node alone sticks wherever slip turns, however far the mesh is from any stick.
+   // Where slip turns one node alone sticks, even if the bodies have no stick zone there.
    if (stick.first != stick.last) { return stick; }
    for (const Index step : {-1, 1})
    {
