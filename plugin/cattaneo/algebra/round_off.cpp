@@ -51,7 +51,7 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
    if (!graded_)
    {
       const double largest = f.cwiseAbs().maxCoeff(), all = norm_ * size.maxCoeff() + largest;
-      // Where that is much, it is worth knowing better.
+      // The cheap bound is enough if it is small. Else compute the better one.
       if (4 * eps * all <= 1e-11 * largest)
       {
          return VectorXd::Constant(K_.rows(), 4 * eps * all);
@@ -66,7 +66,8 @@ VectorXd RoundOff::product(const VectorXd &size) const
 {
    const Index rows = K_.rows();
    const double most = size.maxCoeff();
-   // A larger one would fill memory, from which it is read no faster.
+   // Keep |K| in single precision if it is small. A larger copy would fill memory and be no
+   // faster to read.
    if (rows <= 2048 && norm_ > 0 && std::isfinite(most))
    {
       if (sizes_.size() == 0) { sizes_ = (K_.cwiseAbs() / norm_).cast<float>(); }

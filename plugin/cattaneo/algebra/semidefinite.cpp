@@ -13,17 +13,17 @@ namespace cattaneo
 namespace
 {
 
-/// Every row by its own stiffness, so that a soft node beside a stiff one is not taken for one
-/// that nothing holds.
+/// Scales every row by its own stiffness. Otherwise a soft node beside a stiff one would look
+/// like a node that nothing holds.
 Eigen::VectorXd scale_of(const Eigen::MatrixXd &A)
 {
    const Eigen::VectorXd own = A.diagonal();
    return (own.array() > 0).select(own.cwiseSqrt().cwiseInverse(), 1.0);
 }
 
-/// Does a motion meet no more energy than the rounding of the entries makes? Those of a
-/// condensed matrix are sums of about as many terms as it has rows, which round in all
-/// directions: as their square root.
+/// Is the energy of a motion no more than the rounding of the entries causes? Entries of a
+/// condensed matrix are sums of about as many terms as it has rows. Their round-off has either
+/// sign, so it grows as the square root of that number.
 bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion)
 {
    using Long = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -34,7 +34,7 @@ bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion)
       energy += x[j] * A.col(j).cast<long double>().dot(x);
       round_off += std::abs(x[j]) * A.col(j).cwiseAbs().cast<long double>().dot(x.cwiseAbs());
    }
-   // Energy below zero is no rest: the matrix is not semidefinite then.
+   // A clearly negative energy does not count as rest. The matrix is not semidefinite then.
    return std::abs(energy) <= 8 * std::sqrt(static_cast<long double>(x.size())) *
                                  std::numeric_limits<double>::epsilon() * round_off;
 }
@@ -69,20 +69,19 @@ Eigen::MatrixXd SemidefiniteSolver::solve(const Eigen::MatrixXd &rhs) const
 namespace
 {
 
-/// A motion of a matrix of unit diagonal that meets more energy is no candidate for one that
-/// meets none.
+/// With a diagonal of ones a motion of more energy than this cannot be one without energy.
 constexpr double soft_energy = 1e-5;
 
-/// The motions of little energy of a large matrix of unit diagonal, orthonormal columns, by
-/// inverse iteration from random ones. None if it is small, not semidefinite, or has more of
-/// them than a few.
+/// Motions of little energy of a large matrix with a diagonal of ones, as orthonormal columns,
+/// by inverse iteration from random ones. No answer if the matrix is small or not semidefinite,
+/// or has more than a few such motions.
 std::optional<Eigen::MatrixXd> few_soft_motions(const Eigen::MatrixXd &scaled)
 {
    constexpr Eigen::Index most = 16, large = 256;
    const Eigen::Index n = scaled.rows();
    if (n < large) { return std::nullopt; }
-   // 1. What meets nothing is multiplied by a thousand million in each iteration, what is
-   // stiff by a hundred thousand at most.
+   // 1. Each iteration multiplies a motion without energy by 1e9, and one of more than
+   // `soft_energy` by 1e5 at most.
    Eigen::MatrixXd raised = scaled;
    raised.diagonal().array() += 1e-9;
    DenseCholesky factor;
@@ -91,14 +90,14 @@ std::optional<Eigen::MatrixXd> few_soft_motions(const Eigen::MatrixXd &scaled)
    std::uniform_real_distribution<double> uniform(-1, 1);
    Eigen::MatrixXd X = Eigen::MatrixXd::NullaryExpr(n, most, [&] { return uniform(random); });
    for (int k = 0; k < 3; ++k) { X = thin_qr(factor.solved(std::move(X))).Q; }
-   // 2. They are all there if stiff ones are among them too.
+   // 2. If stiff motions are among the columns too, no soft one is missing.
    const SymmetricModes modes = symmetric_modes(X.transpose() * (scaled * X));
    const Eigen::Index count = (modes.values.array() <= soft_energy).count();
    if (count > most / 2) { return std::nullopt; }
    return X * modes.vectors.leftCols(count);
 }
 
-/// The same of any matrix, by pivoted LDLᵀ.
+/// The same for any matrix, by pivoted LDLᵀ.
 Eigen::MatrixXd soft_motions(const Eigen::MatrixXd &scaled)
 {
    const Eigen::Index n = scaled.rows();
@@ -127,8 +126,8 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
    const std::optional<Eigen::MatrixXd> few = few_soft_motions(scaled);
    Eigen::MatrixXd Q = few ? *few : soft_motions(scaled);
    if (Q.cols() == 0) { return Q; }
-   // They are as exact as what was eliminated before them. A motion z that meets nothing has (A
-   // + Q Qᵀ) z = Q Qᵀ z: one solution leaves round-off of it.
+   // The candidates have errors of the elimination before them. A motion z without energy obeys
+   // (A + Q Qᵀ) z = Q Qᵀ z, so one solution with that matrix reduces the error to round-off.
    const Eigen::MatrixXd held = scaled + Q * Q.transpose();
    DenseCholesky factor;
    Q = thin_qr(factor.compute(held) ? factor.solved(Q) : held.ldlt().solve(Q)).Q;
@@ -151,7 +150,7 @@ bool resists_all_but(const Eigen::MatrixXd &A, const Eigen::MatrixXd &motions)
       const Eigen::MatrixXd Q = thin_qr(scale.cwiseInverse().asDiagonal() * motions).Q;
       held += Q * Q.transpose();
    }
-   // A motion that is left makes a pivot round-off.
+   // If another motion without energy is left, a pivot is only round-off.
    DenseCholesky factor;
    return factor.compute(std::move(held)) && factor.smallest_pivot() > soft_energy;
 }

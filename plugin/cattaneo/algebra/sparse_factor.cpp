@@ -157,7 +157,8 @@ struct TrailingColumn
    }
 };
 
-/// What an implementation knows by the columns that its visit_trailing(visit) goes through.
+/// The functions of an implementation that only need to visit the columns of L22, by its
+/// visit_trailing(visit).
 template <class Factor>
 struct ByColumns : SparseFactor::Implementation
 {
@@ -345,8 +346,8 @@ public:
       const OneOpenMPThread one_thread;
       cholmod_start(&common_);
       common_.print = 0;
-      // The order that analyse gets is the order that it must use: no other methods, no
-      // postorder (weighted by column counts, it may move the trailing rows).
+      // The analysis must use the given order. Other methods are switched off, and so is the
+      // postorder, which may move the trailing rows.
       common_.nmethods = 1;
       common_.method[0].ordering = CHOLMOD_GIVEN;
       common_.postorder = 0;
@@ -372,7 +373,8 @@ public:
             "order the matrix");
       L_ = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common_);
       check(L_ != nullptr, "analyse the matrix");
-      // A multiplication has two of these operations, and most fronts are small.
+      // CHOLMOD counts two operations for each multiplication. Most fronts are small, so only a
+      // share of the work gains from threads.
       constexpr double share_of_large_fronts = 0.2;
       const OneThread alone(share_of_large_fronts * 0.5 * common_.fl);
       check(cholmod_factorize(&A, L_, &common_), "factor the matrix");
@@ -412,8 +414,8 @@ public:
       for (int k = static_cast<int>(L_->nsuper) - 1; k >= 0 && super[k + 1] > interior; --k)
       {
          const int rows = pi[k + 1] - pi[k];
-         // A relaxed supernode may begin before the first trailing column; and what is stored
-         // above the diagonal is not part of L.
+         // A relaxed supernode may begin before the first trailing column. Entries above the
+         // diagonal are stored but are not part of L.
          for (int c = std::max(super[k], interior); c < super[k + 1]; ++c)
          {
             const double *column = x + px[k] + static_cast<std::ptrdiff_t>(c - super[k]) * rows;

@@ -20,8 +20,8 @@ Ends ends(const Nodes &edge)
    return std::minmax(edge.front(), edge.back());
 }
 
-/// Parts of the boundary by their names, each the ends of its edges. A set of nodes that is no
-/// part of it has none.
+/// Parts of the boundary by their names. Each has the ends of its edges. A set of nodes that is
+/// no part of the boundary has no edges.
 std::map<std::string, std::set<Ends>> parts_of_boundary(const InputDeck &deck)
 {
    std::map<std::string, std::set<Ends>> parts;
@@ -31,7 +31,7 @@ std::map<std::string, std::set<Ends>> parts_of_boundary(const InputDeck &deck)
    }
    std::set<Ends> outer;
    for (const Nodes &edge : deck.edges) { outer.insert(ends(edge)); }
-   // A truss of three nodes has its middle between the ends, or behind them as lines of Gmsh.
+   // The middle node of a truss stands between its ends or, as Gmsh writes it, after them.
    const auto line = [&](const InputDeck::Element &element)
    {
       const Ends behind = std::minmax(element.nodes[0], element.nodes[1]);
@@ -151,7 +151,7 @@ DeckMesh deck_mesh(const std::string &file, const MeshPart &part)
    }
    const std::map<std::string, std::set<Ends>> parts = parts_of_boundary(deck);
    for (const auto &part : parts) { made.names.boundary[part.first]; }
-   // An edge has one attribute: edges that have the same names share it.
+   // An edge has one attribute. Edges with the same names share it.
    std::map<std::vector<std::string>, int> attributes;
    for (const Nodes &edge : deck.edges)
    {

@@ -96,8 +96,8 @@ bool above(const MatrixXd &c, double level, int depth = 10)
 }
 
 /// Data that elements of one shape share: the points where the determinant is sampled, and the
-/// derivatives of the mapping there. The unit square; triangles are one whose side u = 1 is a
-/// point.
+/// derivatives of the mapping there. The reference is the unit square. For a triangle its side
+/// u = 1 is a point.
 class Shape
 {
 public:
@@ -214,7 +214,8 @@ std::string name(const double *place)
    return text.str();
 }
 
-/// The first of the lists of that length that ranks have, on all; empty if none has one.
+/// The list of the first rank that has one, on all ranks. Empty if none has one. All lists have
+/// this length.
 std::vector<double> first_of_all(const Ranks &ranks, const std::vector<double> &here,
                                  std::size_t length)
 {
@@ -230,7 +231,7 @@ void check_plane(mfem::Mesh &mesh)
    std::ostringstream which;
    if (dimension == 2 && space < 2)
    {
-      // MFEM's readers leave out the coordinates that are the same for all nodes.
+      // MFEM's readers drop a coordinate that is the same for all nodes.
       which << ": all of its nodes lie on one line, its elements have no thickness; nodes must "
                "differ in x and in y";
    }
@@ -312,7 +313,7 @@ void check_elements(mfem::Mesh &mesh)
          mesh.GetElementVertices(element, vertices);
          return vertices[mesh.GetElement(element)->GetEdgeVertices(info / 64)[0]];
       };
-      // Both counterclockwise: they run along it in opposite directions.
+      // Two counterclockwise elements go along their common edge in opposite directions.
       if (start(one, info_one) != start(other, info_other)) { continue; }
       const Place first = place(mesh, one), second = place(mesh, other);
       pair = {first.number,  first.attribute,  first.x,  first.y,

@@ -45,7 +45,8 @@ bool Ranks::first_of_all()
 void Ranks::sum(Eigen::MatrixXd &here) const
 {
    if (size_ == 1) { return; }
-   // Reduced on one rank and handed out: an all-reduce may add in another order elsewhere.
+   // Sum on one rank and send the result to all. An all-reduce may add in another order on each
+   // rank, and the bits would differ.
    const auto count = static_cast<int>(here.size());
    MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : here.data(), here.data(), count, MPI_DOUBLE, MPI_SUM,
               0, comm_);

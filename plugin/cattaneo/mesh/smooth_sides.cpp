@@ -90,7 +90,8 @@ std::vector<OuterEdge> outer_edges(mfem::Mesh &mesh, const std::vector<int> &att
    return all;
 }
 
-/// Edges that follow each other along the boundary, those of a hole or a body each.
+/// The closed lines of edges that follow each other along the boundary: the outline of a body,
+/// and each hole.
 std::vector<std::vector<OuterEdge *>> rims(std::vector<OuterEdge> &edges)
 {
    std::map<int, std::vector<OuterEdge *>> starting;
@@ -100,7 +101,7 @@ std::vector<std::vector<OuterEdge *>> rims(std::vector<OuterEdge> &edges)
       starting[edge.from].push_back(&edge);
       ++ending[edge.to];
    }
-   // Where two rims touch at a vertex none goes on.
+   // Where two rims touch at a vertex, both end there.
    const auto next = [&](const OuterEdge *edge) -> OuterEdge *
    {
       const auto found = starting.find(edge->to);
@@ -135,7 +136,7 @@ void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
    const bool loop = rim.front()->from == rim.back()->to;
    const auto n = static_cast<int>(rim.size());
    const auto along = [&](int k) { return chord_of(mesh, *rim[(k + n) % n]); };
-   // Between corners, which a side ends at: beyond them may be a plane of symmetry.
+   // A side ends at corners. Beyond a corner there may be a plane of symmetry.
    const auto is_corner = [&](int k) // at the beginning of edge k
    {
       const Vector2d a = along(k - 1), b = along(k);
@@ -182,8 +183,8 @@ void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
    }
 }
 
-/// Where a point of an element lies along one of its edges, and how much of what moves the
-/// edge moves it.
+/// Place of a point of an element along one of its edges (0 to 1), and the share of the edge's
+/// displacement with which the point moves.
 struct Blend
 {
    double along, share;
@@ -202,12 +203,12 @@ Blend blend(mfem::Geometry::Type shape, const int *at, const mfem::IntegrationPo
    const std::array<double, 3> weights{1 - ip.x - ip.y, ip.x, ip.y};
    const double a = weights[at[0]], b = weights[at[1]], difference = b - a;
    const double left = (1 - difference) * (1 + difference);
-   // Both ends belong to the edge.
+   // The ends of the edge move with it.
    return {0.5 * (1 + difference), left > 1e-12 ? 4 * a * b / left : 1};
 }
 
-/// How far the nodes of an edge are off its chord, in what its curve is: 0 of a straight edge,
-/// 1 of one that is curved as its vertices say.
+/// Distance of the nodes of an edge from its chord, over that of its curve: 0 for a straight
+/// edge, 1 for one that is curved as its vertices tell.
 double curved(mfem::Mesh &mesh, const OuterEdge &edge)
 {
    if (!mesh.GetNodes()) { return 0; }
@@ -228,8 +229,8 @@ double curved(mfem::Mesh &mesh, const OuterEdge &edge)
    return expected > 0 ? off / expected : off > 1e-4 ? 1 : 0;
 }
 
-/// Where the nodes of an element that is beside an edge go with it: calls move(node, share of
-/// what is on the edge, displacement).
+/// Calls move(node, share, displacement) for the nodes of an element that move with its edge.
+/// `share` is that of the edge's displacement.
 template <class Move>
 void along_edge(const mfem::Mesh &mesh, const OuterEdge &edge, Move move)
 {
@@ -269,8 +270,8 @@ void move_beside(mfem::Mesh &mesh, const std::vector<const OuterEdge *> &bent)
    add(mesh, moved);
 }
 
-/// Moves all nodes by what is harmonic within, given along the bent edges and zero along all
-/// others of the boundary.
+/// Moves all nodes by a displacement that is harmonic within. It is given along the bent edges,
+/// and zero along all other edges of the boundary.
 void move_all(mfem::Mesh &mesh, const std::vector<OuterEdge> &edges,
               const std::vector<const OuterEdge *> &bent)
 {
@@ -316,7 +317,7 @@ void move_all(mfem::Mesh &mesh, const std::vector<OuterEdge> &edges,
    add(mesh, list);
 }
 
-/// The least determinant of an element over what it is in the mean.
+/// Smallest determinant of an element's mapping over its mean.
 double evenness(mfem::Mesh &mesh, int element)
 {
    mfem::IsoparametricTransformation plane;
@@ -343,8 +344,8 @@ double evenness(mfem::Mesh &mesh, int element)
    return least * weights / sum;
 }
 
-/// Moves nodes onto the curves of edges, of as many as no element folds for: which ones.
-/// `in_contact` are those of them that count most.
+/// Moves nodes onto the curves of as many edges as possible without folding an element. Returns
+/// these edges. The edges `in_contact` come first.
 std::vector<const OuterEdge *>
 move_onto_curves(mfem::Mesh &mesh, int order, const std::vector<OuterEdge> &edges,
                  const std::vector<const OuterEdge *> &bent,
@@ -361,7 +362,7 @@ move_onto_curves(mfem::Mesh &mesh, int order, const std::vector<OuterEdge> &edge
       for (const auto &each : before) { noted.push_back(each.first); }
       const std::vector<int> folded = folded_elements(mesh, noted);
       std::set<int> found_so(folded.begin(), folded.end());
-      // Elements may lose so much of what their least determinant was.
+      // The evenness of an element may fall to 0.3 of its value as meshed.
       for (const auto &[e, was] : before)
       {
          if (!(evenness(mesh, e) > 0.3 * was)) { found_so.insert(e); }
@@ -385,26 +386,26 @@ move_onto_curves(mfem::Mesh &mesh, int order, const std::vector<OuterEdge> &edge
                    });
       return left;
    };
-   // 1. The elements beside the curves, where these are sound then.
+   // 1. Move the nodes of the elements beside the curves. Done if no element folds.
    move_beside(mesh, bent);
    const std::set<int> folding = unsound();
    if (folding.empty()) { return bent; }
-   // 2. All of them.
+   // 2. Else move the nodes of all elements.
    put_back();
    for (int e = 0; e < mesh.GetNE(); ++e) { note(e); }
    move_all(mesh, edges, bent);
    if (unsound().empty()) { return bent; }
-   // 3. Free edges of those beside the curves that are not sound stay straight.
+   // 3. Else leave free edges straight where their elements folded in step 1.
    put_back();
    const Edges most = without(bent, folding, true);
    move_beside(mesh, most);
    if (unsound().empty()) { return most; }
-   // 4. All free edges do, for the sake of those in contact.
+   // 4. Else leave all free edges straight, and move all nodes for those in contact.
    put_back();
    move_all(mesh, edges, in_contact);
    if (unsound().empty()) { return in_contact; }
-   // 5. Edges of all that are not sound do. No element has nodes that move with another one's
-   // edge.
+   // 5. Else leave all edges straight whose elements folded in step 1. This cannot fold others,
+   // because no element has nodes that move with the edge of another one.
    put_back();
    const Edges sound = without(bent, folding, false);
    move_beside(mesh, sound);
@@ -417,8 +418,8 @@ double off(const mfem::Mesh &mesh, const OuterEdge &edge, double s)
    return edge.bend.off(s) * chord_of(mesh, edge).norm();
 }
 
-/// The wall behind the middle of an edge: how thick it is to the nearest other edge, and what
-/// the curves of both add to it where they are not curved.
+/// The wall behind the middle of an edge: its thickness to the nearest other edge, and how much
+/// the curves of both edges would add to it where the edges are straight.
 std::optional<WallOfChords> wall_behind(const mfem::Mesh &mesh, const OuterEdge &edge,
                                         const std::vector<OuterEdge> &edges,
                                         const std::set<const OuterEdge *> &curved)
@@ -431,7 +432,7 @@ std::optional<WallOfChords> wall_behind(const mfem::Mesh &mesh, const OuterEdge 
    {
       const Vector2d from = place_of_vertex(mesh, other.from) - found.place,
                      along = chord_of(mesh, other);
-      // Where the way into the body crosses the other edge.
+      // The line into the body crosses the other edge at this place.
       const double across = along.dot(chord);
       if (&other == &edge || std::abs(across) < 1e-9 * along.norm()) { continue; }
       const double s = -from.dot(chord) / across;
@@ -462,7 +463,7 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
    for (const std::vector<OuterEdge *> &rim : rims(edges))
    {
       find_bends(mesh, rim);
-      // A mesh that has curves knows which of its edges are straight.
+      // If the mesh has curved edges here, its straight ones are meant to be straight.
       const bool knows =
          std::any_of(rim.begin(), rim.end(),
                      [&](const OuterEdge *edge) { return curved(mesh, *edge) > 0.1; });
@@ -488,14 +489,14 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
       }
    }
    if (bent.empty()) { return found; }
-   // Nodes that elements do not share are those of a mesh that is periodic.
+   // In a periodic mesh elements do not share their nodes.
    const mfem::FiniteElementSpace *space = mesh.GetNodalFESpace();
    const bool periodic =
       space && dynamic_cast<const mfem::L2_FECollection *>(space->FEColl()) != nullptr;
    const Edges moved =
       order < 2 || periodic ? Edges() : move_onto_curves(mesh, order, edges, bent, in_contact);
    const std::set<const OuterEdge *> curved(moved.begin(), moved.end());
-   // Edges of sides in contact that stay straight among those that do not.
+   // Edges of sides in contact that had to stay straight.
    Edges folding;
    for (const OuterEdge *edge : bent)
    {

@@ -42,7 +42,7 @@ double turn(const GmshMesh &mesh, const GmshMesh::Element &element)
    return area;
 }
 
-/// Groups of elements around a node that are connected by their sides, but for cut ones.
+/// Groups of elements around a node that are connected by sides which are not cut.
 std::vector<std::vector<std::size_t>> fans(const GmshMesh &mesh,
                                            const std::vector<std::size_t> &around, long node,
                                            const std::set<DirectedEdge> &cut)
@@ -56,7 +56,7 @@ std::vector<std::vector<std::size_t>> fans(const GmshMesh &mesh,
          const bool there = side.first == node || side.second == node;
          if (there && cut.count(undirected(side)) == 0) { own.insert(undirected(side)); }
       }
-      // The groups that it touches become one with it.
+      // Join the element with all groups that it touches.
       std::vector<std::size_t> joined{e};
       for (std::size_t g = groups.size(); g-- > 0;)
       {
@@ -82,7 +82,7 @@ std::vector<std::vector<std::size_t>> fans(const GmshMesh &mesh,
 
 void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
 {
-   // The cut edges, and on which side of each line its two elements are.
+   // 1. Find the edges to be cut, and check that they form lines with one direction.
    std::set<DirectedEdge> cut;
    std::vector<std::size_t> lines;
    std::set<long> on_line, starts, stops;
@@ -107,7 +107,7 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
    }
    require(!lines.empty(), "mesh file: the line '", name, "' has no edges, nothing is split");
 
-   // Elements by the edges of the line and by its nodes; `left` of an edge as the line runs.
+   // 2. Find the elements on the left and on the right of each edge, and around each node.
    std::map<DirectedEdge, std::size_t> left, on_right;
    std::map<long, std::vector<std::size_t>> around;
    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
@@ -118,7 +118,7 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
       for (const auto &[a, b] : sides_of(element))
       {
          if (cut.count(undirected({a, b})) == 0) { continue; }
-         // An element has its sides on its left border: it is on the left of them.
+         // A counterclockwise element is on the left of its sides.
          const DirectedEdge along = counterclockwise ? DirectedEdge{a, b} : DirectedEdge{b, a};
          left[along] = e;
          on_right[{along.second, along.first}] = e;
@@ -136,7 +136,8 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
               ", must have elements on both sides to be split");
    }
 
-   // New nodes for all fans of elements around a node but the first.
+   // 3. Around each node the first group of elements keeps the node, each other one gets a new
+   // node. A tip has one group and so stays one node.
    std::map<std::pair<std::size_t, long>, long> renamed; // of an element's node
    for (const auto &[node, elements] : around)
    {
@@ -153,7 +154,8 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
       const auto found = renamed.find({element, node});
       return found == renamed.end() ? node : found->second;
    };
-   // Lines first, which are found by the old nodes.
+   // 4. Make the two lips. This comes before elements get their new nodes, because elements are
+   // found by the old ones.
    long last = 0;
    for (const GmshMesh::Element &element : mesh.elements)
    {
@@ -168,11 +170,11 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
       for (long &node : other.nodes) { node = node_of(on_right.at(ends), node); }
       other.number = ++last;
       other.tags[0] = right;
-      // A curve of its own, if the file says on which curve it is.
+      // If the file names the curve of the edge, the other lip gets a new curve.
       if (other.tags.size() > 1 && other.tags[1] > 0) { other.tags[1] += last_curve; }
       others.push_back(other);
    }
-   // Other lines that end on this one: on the elements that they are sides of.
+   // 5. Other lines that end on this one get the node of the element whose side they are.
    std::map<DirectedEdge, std::size_t> owner;
    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
    {
