@@ -170,7 +170,7 @@ void list_loads(Study &study, const Scene &scene)
                            plane && force ? settled(moment, all * far) : none});
       }
    }
-   // Of a half-plane: forces far away and bulk stresses, which have no nodes.
+   // Loads of a half-plane are forces far away and bulk stresses. They have no nodes.
    for (std::size_t k = scene.bodies.size(); k < reduction.bodies.size(); ++k)
    {
       if (scene.bodies.empty()) { break; } // their elements are not known

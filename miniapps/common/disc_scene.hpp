@@ -34,8 +34,8 @@ struct DiscOptions
    double domain = 0; ///< R, in t; 0: the half-space itself, without a mesh
    int order = 2;
    double spacing = 0.02; ///< of the contact nodes (rounded so that elements end at b), in t
-   /// Of the elements away from the contact; those of the disc are 0.4 (growth - 1) t high at
-   /// most.
+   /// Growth of the elements away from the contact. Those of the disc are at most 0.4 (growth -
+   /// 1) t high.
    double growth = 0; ///< 0: the usual (element_growth())
    /// Grid lines of the contact from 0 to the disc's radius in place of `spacing`.
    std::vector<double> grid = {};

@@ -46,7 +46,7 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 
 /// Prints a warning, once however often it is given; the results of write_json() list them.
 void warn(const std::string &text);
-/// Of parts of a sentence.
+/// The same, from parts of a sentence.
 template <class... Parts>
 void warn(const Parts &...parts)
 {

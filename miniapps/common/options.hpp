@@ -40,7 +40,8 @@ enum class Text
    page        ///< an html file
 };
 
-/// Of --domain, which every study with a half-plane has: 0, and the half-plane has no mesh.
+/// Help of --domain, which every study with a half-plane has. With 0 the half-plane has no
+/// mesh.
 extern const char *const domain_help;
 
 /** Options of a program, each declared once, with its check. Numbers that are none, or too
@@ -56,8 +57,8 @@ class Options
 public:
    Options(int argc, char *argv[]);
 
-   /// Of an option: -name and --name, or -short and --name; a flag's other side is -no-name and
-   /// --no-name unless it is given.
+   /// Names of an option: -name and --name, or -short and --name. The other side of a flag is
+   /// -no-name and --no-name unless it is given.
    struct Names
    {
       Names(const char *name) : Names(name, name) {}

@@ -26,8 +26,8 @@ struct PunchOptions
    double plane_stiffness = 1;  ///< E' of the half-plane over that of the block
    double plane_poisson = none; ///< of the half-plane; NaN: that of the block
    double domain = 0; ///< half-width and depth of the half-plane's block, in a; 0: no block
-   /// Of the elements away from the contact, the largest of which are 0.8 (growth - 1) a;
-   /// 0: the usual (element_growth()), but 1.1 and 0.04 a where the order is 1.
+   /// Growth of the elements away from the contact, the largest of which are 0.8 (growth - 1)
+   /// a. 0: the usual one (element_growth()), but 1.1 and 0.04 a where the order is 1.
    double growth = 0;
    /// Grid lines of the contact from -1 to 1 in place of `nodes` and `grading`.
    std::vector<double> grid = {};

@@ -28,8 +28,8 @@ struct RecedingOptions
    double spacing =
       0.02; ///< of the contact nodes from the corner to beyond the edge of the load
    double corner = 0.0005; ///< of the contact nodes at the strip's end
-   /// Of the elements away from the contact and the corner; those of the strip are 0.4 (growth
-   /// - 1) t high at most.
+   /// Growth of the elements away from the contact and the corner. Those of the strip are at
+   /// most 0.4 (growth - 1) t high.
    double growth = 1.25;
    double poisson = 0.3;
    /// Grid lines of the contact from 0 to `length` in place of `spacing` and `corner`.

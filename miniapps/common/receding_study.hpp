@@ -10,8 +10,8 @@
 namespace miniapp
 {
 
-/// Of a contact that sticks at one end of its line and is open at the other: where it separates
-/// and where stick ends, NaN where there is none.
+/// Extent of a contact that sticks at one end of its line and is open at the other: where it
+/// separates and where stick ends, NaN where there is no such place.
 struct Extent
 {
    double separation = none, stick = none, separation_error = 0, stick_error = 0;
@@ -70,7 +70,7 @@ struct Unloading
    double shown = none; ///< up to which coordinate tractions are drawn; none: all
 };
 
-/// Of an unloading, to be marked.
+/// Panels of an unloading, in which states are marked.
 struct UnloadingPanels
 {
    Panel &tractions, &zones;

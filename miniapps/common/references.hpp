@@ -30,8 +30,8 @@ struct Reference
    double computed, thesis = std::numeric_limits<double>::quiet_NaN();
 
    double difference() const { return computed - value; }
-   /// Of its own ±, of a closed form, which has none, of the mesh's. What is computed as NaN is
-   /// outside, and nothing of a value that only the thesis has.
+   /// Is the computed value outside of the reference's ±? A closed form has none, so its limit
+   /// is the ± of the mesh. NaN is outside. A value that only the thesis has never is.
    bool outside() const { return differs_by_more_than(allowed.own()); }
    /// In words, and whether the mesh explains what is outside.
    std::string verdict() const;

@@ -40,7 +40,7 @@ struct Scene
                                     const cattaneo::HalfPlane *half_plane = nullptr);
 };
 
-/// Of plane strain with E' = E/(1-ν²) = 1.
+/// Material in plane strain with E' = E/(1-ν²) = 1.
 cattaneo::Material unit_material(double poisson);
 
 /// A condensed body on another one, whose line's nodes match.

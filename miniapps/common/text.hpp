@@ -39,7 +39,7 @@ std::string told(const Parts &...parts)
    return all.str();
 }
 
-/// Of UTF-8, not its bytes.
+/// Number of characters of UTF-8 text, which has more bytes.
 std::size_t characters(const std::string &text);
 /// With spaces behind it, or before it, up to a width counted in characters: text is UTF-8.
 std::string padded(const std::string &text, std::size_t width);

@@ -6,12 +6,12 @@
 namespace miniapp
 {
 
-/** Of a whole program: on a terminal (not in a pipe or a file) a line says, once it has run for
-    two seconds, what it does, how far that has come and for how long the program has run; it
-    goes when something is printed. The first Ctrl-C stops the work that a Watch watches at the
-    end of an increment, so that the study writes what it has, and a second one ends the program
-    at once. On several ranks there is no such stop: they would not stop at the same increment.
-    One at a time. */
+/** The progress of a whole program. On a terminal (not in a pipe or a file) a line appears
+   after two seconds. It has the present work, how much of it is done, and the time since the
+   start. It disappears when something is printed. The first Ctrl-C stops the work that a Watch
+   watches at the end of an increment, so that the study writes what it has, and a second one
+   ends the program at once. On several ranks there is no such stop: they would not stop at the
+   same increment. One at a time. */
 class ProgressLine
 {
 public:

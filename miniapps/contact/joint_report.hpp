@@ -29,9 +29,9 @@ public:
    void report(const cattaneo::ContactState &state, const cattaneo::MarchReport &march);
 
 private:
-   /// Of an interface: pressure and shear as they press on its first body, and their moment
-   /// about its middle, where they act on it; about an axis the torque. What the moments on
-   /// both bodies add up to is the defect.
+   /// Resultants of an interface: pressure and shear on its first body, and their moment about
+   /// its middle (about an axis, the torque). The defect is the sum of the moments on both
+   /// bodies.
    struct Resultant
    {
       double normal = 0, tangential = 0, moment = 0, defect = 0, torque = 0;
@@ -52,8 +52,8 @@ private:
    Study &study_;
    const JointCase &joint_;
    const cattaneo::Reduction &reduction_;
-   /// Of an interface: mean slip and the sum of its shear, as that resists the slip; of bodies
-   /// that twist mean turn and torque.
+   /// Mean slip of an interface and the sum of the shear that resists it. For bodies that
+   /// twist, mean rotation and torque.
    struct Course
    {
       std::vector<double> slip, shear; ///< as far as a picture can show

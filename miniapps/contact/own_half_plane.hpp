@@ -5,7 +5,7 @@
 namespace miniapp
 {
 
-/// Of a line's nodes, by their weights.
+/// Mean normal of a line's nodes, by their weights.
 Eigen::Vector2d mean_normal(const cattaneo::ContactLine &line);
 
 /// Reduces a case whose last body is a half-plane, which touches the lowest contact nodes of

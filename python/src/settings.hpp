@@ -139,7 +139,7 @@ public:
    void set_all(void *settings, const nb::kwargs &values) const;
    /// Attributes, those that are misspelt, printing and pickling; all but how one is made.
    void define(const std::shared_ptr<const SettingsClass> &self) const;
-   /// Of its constructor.
+   /// Signature of its constructor.
    std::string signature() const;
 
 private:

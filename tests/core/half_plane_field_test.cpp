@@ -151,7 +151,8 @@ TEST(HalfPlaneField, HertzPressedAndSheared)
    ASSERT_EQ(solver.solve(state, Vector2d(1, 0)).status, FrictionStatus::converged);
    ASSERT_EQ(solver.solve(state, Vector2d(1, share * f)).status, FrictionStatus::converged);
    const double p0 = 2 * P / M_PI;
-   // Of the specimen below: forces in its frames are those of the pad's, node by node reversed.
+   // The field in the specimen below. Forces in its frames are those of the pad in reverse
+   // order.
    const HalfPlaneField field(
       lower, reduction.bodies[1].line,
       (VectorXd(2 * problem.nodes()) << state.q.reverse(), state.p.reverse()).finished());

@@ -182,8 +182,7 @@ TEST(HalfSpace, RigidPunchesOnTheHalfSpace)
    cattaneo_test::record("twisted", r.dot(twisted.S * r) / (16.0 / 3 * G * a * a * a));
 }
 
-/// Of half a line beside a plane of symmetry: what the whole line does in motions that are
-/// symmetric.
+/// Half a line beside a plane of symmetry behaves as the whole line does in symmetric motions.
 TEST(HalfPlane, APlaneOfSymmetryIsHalfOfTheWhole)
 {
    const int order = 3;
@@ -438,7 +437,8 @@ TEST(HalfPlane, CurvedLineOverIt)
          EXPECT_NEAR(problem.gap[i], lift(problem.position(i, 0)), 1e-15 * unit);
       }
       EXPECT_LT((problem.K - flat).cwiseAbs().maxCoeff(), 1e-12 * flat.cwiseAbs().maxCoeff());
-      // Of the nodes of its surface, which run the other way: the nearer neighbour's distance.
+      // The nodes of its surface run the other way. Their spacing is the distance of the nearer
+      // neighbour.
       const std::vector<double> spacing = {0.8, 0.7, 0.4, 0.4, 0.6};
       for (std::size_t k = 0; k < 5; ++k)
       {
@@ -555,7 +555,7 @@ TEST(HalfPlane, FarForcesPressAndShear)
       EXPECT_NEAR(std::abs(loaded.patterns[1].q.sum()), P, 1e-14);
       ReducedProblem problem = reduce(loaded, lower).problem;
       const Index n = problem.nodes();
-      // Of one material pressure moves nothing along the contact, also where one body is free.
+      // With one material pressure moves nothing along the contact, even if one body is free.
       EXPECT_FALSE(problem.coupled);
       HalfPlane other = lower;
       other.material.poisson = 0.2;

@@ -517,8 +517,8 @@ TEST(HalfSpaceContact, NothingDependsOnTheFrame)
    EXPECT_EQ(whole.q, parts.q);
 }
 
-/// Of 5 × 5 cells the outer 16 are the rim, and of a column of two all. Contact that is pressed
-/// there is said to be cut off, once in a march, unless a body ends there.
+/// The rim of 5 × 5 cells is the outer 16, that of a column of two is both. Contact that is
+/// pressed there is said to be cut off, once in a march, unless a body ends there.
 TEST(HalfSpaceContact, ContactAtTheRimIsCutOff)
 {
    HalfSpace contact = contact_of({1, 0.3}, {}, 0.1, cells(5, 0.1, 1));

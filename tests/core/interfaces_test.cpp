@@ -77,7 +77,7 @@ struct Truss
       }
    }
    int size() const { return static_cast<int>(K.rows()); }
-   /// Of two points inside.
+   /// Fixes two points inside.
    Truss &hold()
    {
       for (int k = 4; k > 0; --k) { fixed.push_back(size() - k); }
@@ -1112,7 +1112,7 @@ TEST_F(Interfaces, OfBodiesWithBlocksMinimiseOverTheirMotions)
       for (Index k = 0; k < inside; ++k) { T(inner[k], k) = 1; }
       T.rightCols(moving) = motions.leftCols(moving);
       const Eigen::LDLT<MatrixXd> factor(T.transpose() * truss.K * T);
-      // Of contact displacements and multipliers at random.
+      // Contact displacements and multipliers are random.
       VectorXd u(contact.size()), lambda(loads), U = VectorXd::Zero(size);
       for (double &x : u) { x = random_number(); }
       for (double &x : lambda) { x = random_number(); }

@@ -1452,7 +1452,7 @@ TEST(March, ARingOfNodesMayBeginAnywhere)
 
 TEST(March, AContactMayBeginAtTwoNodesBesideEachOther)
 {
-   // Of four nodes alike two close together, at 0.1, in one increment; the others stay apart.
+   // Two of four equal nodes close together, at 0.1, in one increment. The others stay apart.
    // Two that are not neighbours are closed one after the other if that can be, and are not
    // told apart here: the increment is halved as often as is allowed. The first and the last
    // node are neighbours on a loop.

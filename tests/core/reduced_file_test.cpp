@@ -415,7 +415,7 @@ TEST(ReducedFile, RefusesWhatIsNoProblem)
               p.set_stiffness(Eigen::MatrixXd::Identity(15, 15), Eigen::MatrixXd::Zero(5, 15),
                               p.C());
            });
-   // Of a file: one node that slides in three directions.
+   // The same in a file, with one node that slides in three directions.
    const auto square = [](const char *name, int rows, int columns, const char *values)
    {
       return "\"" + std::string(name) + "\": {\"rows\": " + std::to_string(rows) +

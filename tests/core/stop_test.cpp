@@ -213,7 +213,7 @@ TEST(Streaming, AHistoryIsGoneOnWithOnlyIfItIsTheSame)
    }
    const std::string before = content(file);
    EXPECT_EQ(std::count(before.begin(), before.end(), '\n'), 4);
-   // Of another march: it never came to time 1.2, and had other loads at time 1.
+   // A state of another march: this one never came to time 1.2, and had other loads at time 1.
    state.time = 1.2;
    expect_input_error([&] { HistoryWriter(file, problem, state); }, "of another march");
    state.time = 1;

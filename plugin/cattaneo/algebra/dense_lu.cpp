@@ -82,7 +82,7 @@ bool DenseLU::compute(Eigen::MatrixXd matrix)
    exchanges_.resize(factors_.rows());
    if (factors_.rows() == 0) { return true; }
    Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> lu(factors_); // in place
-   // As exchanges, so that nothing refers to the matrix where it was.
+   // Keep the row exchanges as numbers, so that nothing refers to memory that was moved.
    const Eigen::VectorXi places =
       lu.permutationP() * Eigen::VectorXi::LinSpaced(rows(), 0, static_cast<int>(rows()) - 1);
    exchanges_.assign(places.data(), places.data() + places.size());

@@ -132,7 +132,7 @@ struct TrailingColumn
    int first;
    const double *values;
 
-   /// Of x, what the column meets: all from the diagonal down, if it is dense.
+   /// The part of x that the column meets. If it is dense, that is all from the diagonal down.
    template <class Visitor>
    void visit_rows(Visitor visit) const
    {

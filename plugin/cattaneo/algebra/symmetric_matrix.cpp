@@ -33,7 +33,7 @@ void mirror_lower(Eigen::Ref<MatrixXd> M)
 
 double largest_skew(const Eigen::Ref<const MatrixXd> &A, const Eigen::Ref<const MatrixXd> &B)
 {
-   // Of one matrix either triangle knows it.
+   // If both are one matrix, one triangle is enough.
    const bool one = A.data() == B.data() && A.rows() == B.rows();
    double largest = 0;
    for (Index j = 0; j < A.cols(); j += block_width)

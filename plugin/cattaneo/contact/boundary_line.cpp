@@ -105,7 +105,7 @@ void share(const Ranks &ranks, std::vector<Segment> &segments)
    }
 }
 
-/// Of all ranks, at the ends of the given segments.
+/// How the boundary goes on at the ends of the given segments, on all ranks.
 std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &segments)
 {
    std::set<int> ends;

@@ -9,11 +9,11 @@ namespace cattaneo
 /// How a body is condensed.
 struct CondenseSettings
 {
-   /// Of a body on an mfem::ParMesh: with more dofs than this it is condensed by conjugate
-   /// gradients on all of them, below it is gathered and factored by the first. At the default
-   /// a factor takes some 1.4 GB (docs/ranks.md).
+   /// A body on an mfem::ParMesh with more dofs than this is condensed by conjugate gradients
+   /// on all ranks. A smaller one is gathered and factored by the first rank. At the default a
+   /// factor takes some 1.4 GB (docs/ranks.md).
    int direct_dofs = 500000;
-   /// Of conjugate gradients, for each right-hand side; an InputError beyond.
+   /// Most iterations of conjugate gradients for each right-hand side. More are an InputError.
    int max_iterations = 2000;
 
    /// InputError naming the setting, its value and what is allowed.

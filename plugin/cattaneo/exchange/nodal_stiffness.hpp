@@ -121,7 +121,7 @@ private:
    /// InputError if K resists rigid motions.
    void require_free(const DofPlaces &at) const;
    void require_body_on_left(const ContactLine &line) const;
-   /// Of a group of rows; `owner` of nodes that have rows.
+   /// The part that consists of these rows. `owner` is the group of each node that has rows.
    NodalStiffness part(const std::vector<int> &rows, const std::map<int, std::size_t> &owner,
                        std::size_t group) const;
 };

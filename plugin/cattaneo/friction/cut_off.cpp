@@ -61,7 +61,7 @@ std::vector<CutOffContact> cut_off_contact(const ReducedProblem &problem,
          note(here);
       }
    }
-   // Of a surface the place that is wrong the most.
+   // On a surface report the node of the rim with the largest force.
    CutOffContact rim;
    rim.chain = rim.node = -1;
    for (const Index node : problem.rim)

@@ -159,8 +159,8 @@ void MarchRecord::accept(MarchStep &&step, const LoadPiece &piece)
    row_.found_by = increment.found_by;
    report.largest_residual = std::max(
       {report.largest_residual, increment.residual_normal, increment.residual_tangential});
-   // On the exact path a node closes at the event that its step begins with, and is found to
-   // have too much friction within it.
+   // On the exact path a node closes at the event with which the step begins, and its friction
+   // is found to be too large within the step.
    const ContactState &doubtful = step.exact ? state_ : next;
    const NotUnique from{doubtful.time, doubtful.multipliers, increment.message};
    // 2. Energies, which need the state before.

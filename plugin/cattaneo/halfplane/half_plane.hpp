@@ -40,17 +40,18 @@ std::shared_ptr<KeptRings> keep_rings();
 struct HalfPlane
 {
    Material material; ///< of axisymmetry and torsion: plane strain
-   /** Of the plane, > 0: displacements are relative to the point at this depth below each
-       force. Under forces alone a half-plane moves without bound as this grows (a logarithm),
-       so there is no other answer to a prescribed displacement; what happens under given
-       forces, relative displacements of the contact among it, does not depend on it. At least
+   /** Depth of the point below each force to which displacements in the plane are relative,
+       > 0. Under a force a half-plane moves without bound as the depth grows (a logarithm), so
+       a prescribed displacement has no meaning without it. Results under given forces,
+       relative displacements of the contact among them, do not depend on it. At least
        twice the length of the contact line, then S is positive definite; 1e4 times is fine. Not
        asked for in axisymmetry, where displacements are relative to infinity. */
    double depth = 0;
-   /// Of the surface; on the axis of symmetry, if there is one. Bulk stresses do not move it.
+   /// A point of the surface, on the axis of symmetry if there is one. Bulk stresses do not
+   /// move it.
    Eigen::Vector2d point{0, 0};
    Eigen::Vector2d normal{0, -1}; ///< into the half-plane, a unit vector
-   /// Of the plane: the line through `point` along the normal is one of symmetry, and contact
+   /// In the plane: is the line through `point` along the normal one of symmetry? Contact then
    /// lies on one side of it. The surface must be horizontal or vertical. Not said: there is no
    /// such line; but where a contact line ends at a plane of symmetry (a node that its body
    /// holds along the surface, LineChain::symmetry_turn), as half a model does, it must be
@@ -65,7 +66,7 @@ struct HalfPlane
    std::vector<FarForce> forces = {};
    /// Uniform stresses along the surface, see there; none of them twists.
    std::vector<BulkStress> bulk = {};
-   /// Of the plane, > 0: forces and stiffness are those of this thickness.
+   /// Thickness in the plane, > 0. Forces and stiffness are those of this thickness.
    double thickness = 1;
    /// What condense() has integrated about an axis: the torsion of the same contact line has
    /// the same integrals. Copies share it.

@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Of both bodies together: how their relative displacement follows from tractions.
+/// Compliance of both bodies together: relative displacement by tractions.
 struct Compliance
 {
    double direct = 0;   ///< Σ (1-ν)/2πG
@@ -62,7 +62,7 @@ struct Compliance
    }
 };
 
-/// Of each rectangle, in whole edges from the first one.
+/// Cell of each rectangle, in whole edges from the first one.
 std::vector<std::array<long, 2>> cells_of(const HalfSpace &contact)
 {
    std::vector<std::array<long, 2>> cells;

@@ -245,7 +245,7 @@ private:
       }
       return length * slope.cwiseProduct(by);
    }
-   /// Of each kernel.
+   /// Integrals of each kernel over pairs of points.
    std::vector<MatrixXd> integrals(const Panel &p, const Panel &q, const Pairs &pairs,
                                    const VectorXd &distance)
    {
@@ -265,7 +265,8 @@ private:
       }
       return all;
    }
-   /// Of the half of a square of which s < x, and of the other, which mirrors it.
+   /// Adds the integrals over the half of a square with s < x, and over the other half, which
+   /// is its mirror image.
    void add_halves(const Panel &p, const Pairs &half)
    {
       const std::vector<MatrixXd> one =
@@ -315,7 +316,8 @@ private:
    }
 };
 
-/// Of r + s and |r - s|, with the sum Σ 2ⁿ⁻¹ c_n², n = 1, 2, …, of the differences on the way.
+/// The arithmetic-geometric mean of r + s and |r - s|, and the sum Σ 2ⁿ⁻¹ c_n², n = 1, 2, …, of
+/// the differences on the way.
 struct ArithmeticGeometricMean
 {
    double mean, differences = 0;

@@ -40,13 +40,13 @@ public:
 
    /// With the shanks of all bolts: for fields, and whatever goes on from the tightened joint.
    Reduction tightened() const;
-   /// Of tightened().
+   /// The problem of tightened().
    const ReducedProblem &problem() const { return problem_; }
    /// Which bolts there are.
    const std::vector<Bolt> &bolts() const { return bolts_; }
    /// Number of a bolt's load among those of the problem.
    Eigen::Index load(std::size_t bolt) const;
-   /// Of a state of problem(): the forces of the bolts, in units of their loads' forces.
+   /// Forces of the bolts in a state of problem(), in units of their loads' forces.
    Eigen::VectorXd forces(const ContactState &state) const;
 
    /** As march(), of a history in which multipliers of bolts are forces, from a state of

@@ -20,13 +20,13 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Of the weight of a node on a whole element: what must be faced for it to have a function
-/// there. With less, what the function sees would be extrapolated.
+/// Least share of a node's weight on an element that must be faced for the node to have a
+/// function there. With less the function would be extrapolated.
 constexpr double least_share = 0.25;
-/// Of what a dual function sees of all nodes on an element that is faced in part: what must be
-/// of its own.
+/// Least share of its own node in the integrals of a dual function, on an element that is faced
+/// in part.
 constexpr double least_own = 0.1;
-/// Of the length of an element: a neighbour that is shorter has the end of it for its own.
+/// A neighbour shorter than this share of an element's length gets the end of the element.
 constexpr double short_neighbour = 0.2;
 
 /// In parameters of an element: round-off of roots.
@@ -209,7 +209,7 @@ DualFunctions made_of(const MatrixXd &tests, const MatrixXd &phi, const VectorXd
    return found;
 }
 
-/// Of lines of which no part faces the other.
+/// Why no part of one line faces the other, in words.
 std::string why_apart(const FacingLines &lines)
 {
    const auto towards = [](const std::vector<ElementCurve> &line)

@@ -155,7 +155,7 @@ void save(const ReducedProblem &problem, const std::string &file)
                              {"bodies", chain.bodies}});
    }
    j["rigid_motions"] = to_json(problem.rigid_motions);
-   // Of surfaces alone, so that files of lines are as they were.
+   // Only surfaces have a rim, so that files of lines stay as they were.
    if (!problem.rim.empty()) { j["rim"] = problem.rim; }
    write_whole(file, j.dump() + '\n');
 }

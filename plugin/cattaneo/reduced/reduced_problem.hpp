@@ -146,7 +146,7 @@ struct ReducedProblem
    /// they have the size of C already. InputError if the sizes of the blocks disagree.
    void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                       const Eigen::MatrixXd &C, const Eigen::MatrixXd &rigid_motions);
-   /// Of a problem made by hand: the same, complete() and require_semidefinite().
+   /// For a problem made by hand: the same, then complete() and require_semidefinite().
    void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                       const Eigen::MatrixXd &C);
 
@@ -177,9 +177,9 @@ void require_semidefinite(const ReducedProblem &problem);
 /// One chain of all nodes, in their order, for problems made by hand.
 std::vector<ContactChain> one_chain(Eigen::Index nodes);
 
-/// Of the rigid motions those that are slips alone (c·n × k, their openings are zero) and those
-/// that are openings alone (n × k), orthonormal columns. They are all that A and C do not
-/// resist, because K is semidefinite.
+/// Rigid motions that are slips alone (c·n × k, their openings are zero), as orthonormal
+/// columns. rigid_openings() has those that are openings alone (n × k). They are all that A and
+/// C do not resist, because K is semidefinite.
 Eigen::MatrixXd rigid_slips(const ReducedProblem &problem);
 /// Those that are openings alone, n × k, see rigid_slips().
 Eigen::MatrixXd rigid_openings(const ReducedProblem &problem);

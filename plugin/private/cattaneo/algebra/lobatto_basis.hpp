@@ -16,11 +16,11 @@ struct LobattoBasis
 
    explicit LobattoBasis(int order);
    void evaluate(double t, Eigen::Ref<Eigen::VectorXd> values) const;
-   /// Of all polynomials (columns) at each t (rows).
+   /// Values of all polynomials (columns) at each t (rows).
    Eigen::MatrixXd values(const Eigen::VectorXd &t) const;
 };
 
-/// Of an order from 1 to 8.
+/// The basis of an order from 1 to 8.
 const LobattoBasis &lobatto_basis(Eigen::Index order);
 
 } // namespace cattaneo

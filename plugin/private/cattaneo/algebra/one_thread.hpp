@@ -19,8 +19,8 @@ public:
    OneThread(const OneThread &) = delete;
    OneThread &operator=(const OneThread &) = delete;
 
-   /// Of products and solutions that use each entry of a matrix once: they wait for memory, and
-   /// take as long as so many times the multiplications of products of matrices.
+   /// Factor for products and solutions that use each entry of a matrix once. They wait for
+   /// memory, so one of their multiplications counts as so many in a product of matrices.
    static constexpr double reads_once = 16;
 
 private:

@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// Of the true dofs of this rank.
+/// Places of the true dofs of this rank.
 DofPlaces places_of(const ElasticBody &body);
 
 /// All of an MFEM body on the first of its ranks, in the order of its global dofs; nothing of

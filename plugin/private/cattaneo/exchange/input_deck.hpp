@@ -35,7 +35,7 @@ struct InputDeck
       int number = 0;
       std::string type, place; ///< place: file and line
       Nodes nodes;             ///< corners, then the middles of its sides
-      /// Of plane and axisymmetric ones 3 or 4, of trusses 2, of others 0.
+      /// 3 or 4 for plane and axisymmetric elements, 2 for trusses, 0 for others.
       std::size_t corners = 0;
       int section = 0; ///< which *SOLID SECTION it has, from 1; 0: none
    };
@@ -65,7 +65,7 @@ enum class DeckUse
 struct DeckPart
 {
    std::string name; ///< of an instance, else of a set of elements; empty: there is one body
-   /// Of several instances the one of this name if none is named.
+   /// If none is named, the one of several instances that has this name.
    std::string usual = {};
 };
 

@@ -147,7 +147,7 @@ private:
    // Two are kept: an increment often begins with one and ends with the next.
    std::vector<std::pair<int, std::shared_ptr<NearContact>>> kept_;
    std::array<bool, 8> fails_{}; // to be made, of so many eighths
-   Counters counters_;           // of those that are gone
+   Counters counters_;           // of near problems that are no longer kept
 };
 
 } // namespace cattaneo

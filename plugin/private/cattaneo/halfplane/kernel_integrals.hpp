@@ -28,15 +28,16 @@ Eigen::MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &
 
 /// The logarithm of the distance.
 SurfaceKernel logarithm();
-/** Of rings of radii r and s, x s ∫₀^∞ J_k(k r) J_k(k s) dk with Bessel's functions of order
-    k = 0 or 1: r s K(m) 2/(π (r + s)) and [(r² + s²) K(m) - (r + s)² E(m)]/(π (r + s)), m = 4 r
-    s/(r + s)². By the arithmetic-geometric mean, without loss of digits for m close to 0 or
-    1. */
+/** Kernels of rings of radii r and s, x s ∫₀^∞ J_k(k r) J_k(k s) dk with Bessel's functions of
+   order k = 0 or 1: r s K(m) 2/(π (r + s)) and [(r² + s²) K(m) - (r + s)² E(m)]/(π (r + s)), m
+   = 4 r s/(r + s)². By the arithmetic-geometric mean, without loss of digits for m close to 0
+   or 1. */
 SurfaceKernel ring_even();
 SurfaceKernel ring_odd();
 
-/// Of one surface about an axis, with the kernels ring_even(), ring_odd(), and this one times
-/// r s, which torsion has. All of them come from one mean for each pair of points.
+/// Integrals over one surface about an axis, with the kernels ring_even(), ring_odd(), and
+/// ring_odd() times r s, which torsion needs. All of them come from one mean for each pair of
+/// points.
 struct RingIntegrals
 {
    Eigen::MatrixXd even, odd, levered;

@@ -16,8 +16,8 @@ struct CurveGaps
    Eigen::VectorXd curved; ///< gaps of the outlines over those of chords
 };
 
-/// Of n nodes of a line in frames with these tangents (n × 2). `partner`: of each node of the
-/// line the node of the other one that faces it; an obstacle's line is empty.
+/// Gaps of n nodes of a line in frames with these tangents (n × 2). `partner` has the node of
+/// the other line that faces each node. The line of an obstacle is empty.
 CurveGaps curve_gaps(const ContactLine &line, const std::vector<int> &nodes,
                      const Eigen::MatrixX2d &tangents, const ContactLine &other = {},
                      const std::vector<int> &partner = {});
