@@ -16,8 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// At a point: what the tractions q and p of all the surface add up to, along the tangent (x)
-/// and the normal (y).
+/// Displacement and stress at a point by the tractions q and p of the whole surface. x is along
+/// the tangent, y along the normal.
 struct Sums
 {
    double ux = 0, uy = 0, xx = 0, yy = 0, xy = 0;
@@ -148,8 +148,8 @@ HalfPlaneField::Point HalfPlaneField::at(const Vector2d &position) const
       const Sums other = tractions_->sums(-x, y);
       s = {s.ux - other.ux, s.uy + other.uy, s.xx + other.xx, s.yy + other.yy, s.xy - other.xy};
    }
-   // The bulk stress strains it along the surface, and draws it in across by Poisson's ratio,
-   // in plane strain by ν/(1-ν).
+   // The bulk stress strains the half-plane along the surface, and contracts it across by
+   // Poisson's ratio, in plane strain by ν/(1-ν).
    const double nu = body.material.poisson,
                 along = tractions_->bulk * body.bulk_strain(Formulation::plane);
    s.xx += tractions_->bulk;

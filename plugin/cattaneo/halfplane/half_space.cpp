@@ -29,7 +29,7 @@ struct Compliance
 {
    double direct = 0;   ///< Σ (1-ν)/2πG
    double poisson = 0;  ///< Σ ν/2πG
-   double coupling = 0; ///< (1-2ν)/4πG of the body above less that of the body below
+   double coupling = 0; ///< (1-2ν)/4πG of the body above minus that of the body below
 
    explicit Compliance(const HalfSpace &contact)
    {
@@ -212,7 +212,8 @@ MatrixXd flexibility(const HalfSpace &contact)
                                static_cast<double>(std::labs(y)) * contact.size[1]);
             influence = compliance.of(integrals_at(way, cell)) / contact.size.prod();
          }
-         // Mirrored into the quadrant of this way; on an axis what is odd is zero.
+         // Mirrors the integrals into the quadrant of this vector. On an axis the odd ones are
+         // zero.
          const Eigen::Vector3d sign((x > 0) - (x < 0), (y > 0) - (y < 0), 1);
          for (Index a = 0; a < 3; ++a)
          {
@@ -228,11 +229,11 @@ MatrixXd flexibility(const HalfSpace &contact)
    return F;
 }
 
-/// The stiffness of some rows of a contact whose far body goes where far forces take it.
+/// Stiffness of some rows of a contact whose far body moves as far forces make it.
 struct FreeStiffness
 {
    MatrixXd K;
-   MatrixXd clamped; ///< forces of these rows by each far force, if none of them moved
+   MatrixXd clamped; ///< forces of these rows by each far force, if the rows do not move
    MatrixXd moved;   ///< the far body's motions by each far force then
 
    /** @a F: flexibility of these rows against a far body that is held. @a motions: what one of
@@ -333,7 +334,7 @@ ReducedProblem HalfSpace::problem(const VectorXd &gap) const
            "s, must be one for each");
    require(n > 1, "half-space: one ", kind, " alone, must be at least two");
 
-   // Motions of the far body, each along its force. Those within the plane come first.
+   // Motions of the far body, one along each force. Those within the plane come first.
    const std::vector<std::string> names = turns ? std::vector<std::string>{"Q1", "Q2", "T", "P"}
                                                 : std::vector<std::string>{"Q1", "Q2", "P"};
    const auto count = static_cast<Index>(names.size());

@@ -5,9 +5,10 @@
 #include <cmath>
 
 // Love's potentials of uniform tractions on a polygon. With R the distance of a point inside
-// from one of the surface, φ = ln(R + z) and Ω = z ln(R + z) - R = ∫ φ dz are harmonic. A
-// derivative along the surface of their integrals over a polygon is an integral along its edges
-// (divergence theorem), and so differences between their ends give what stresses need.
+// from one of the surface, φ = ln(R + z) and Ω = z ln(R + z) - R = ∫ φ dz are harmonic.
+// Derivatives along the surface of their integrals over a polygon are integrals along its edges
+// (divergence theorem), which antiderivatives at the ends of the edges give. Stresses need no
+// more than these.
 
 namespace cattaneo
 {
@@ -22,7 +23,7 @@ namespace
 using Matrix3 = Eigen::Matrix<MoreDigits, 3, 3>;
 using Vector3 = Eigen::Matrix<MoreDigits, 3, 1>;
 
-/// ln(R + t) where a² = R² - t², which keeps its digits for t < 0.
+/// ln(R + t) with a² = R² - t², without loss of digits for t < 0.
 MoreDigits log_sum(MoreDigits R, MoreDigits t, MoreDigits a_squared)
 {
    return t < 0 ? std::log(a_squared / (R - t)) : std::log(R + t);
@@ -45,8 +46,8 @@ enum Axis
    along_z
 };
 
-/// Antiderivatives along an edge, at one of its ends, of derivatives of the potentials. Axes:
-/// across the edge (s), along it (t), and z.
+/// Antiderivatives, along an edge, of derivatives of the potentials, at one of its ends. The
+/// axes are across the edge (s), along it (t), and z.
 struct EdgeEnd
 {
    Vector3 phi_first;
@@ -62,7 +63,7 @@ struct EdgeEnd
       const MoreDigits tt = t / R * by_z, zz = z / R * by_t, st = s / R * by_z,
                        sz = s / R * by_t, tz = 1 / R;
       phi_second << -tt - zz, st, sz, st, tt, tz, sz, tz, zz;
-      // ∂Ω/∂z = φ: what has to do with z is known from φ.
+      // As ∂Ω/∂z = φ, derivatives along z are known from φ.
       omega_second << t * by_z - log_t, -s * by_z, 0, -s * by_z, -t * by_z, 0, 0, 0, 0;
    }
 };
@@ -181,7 +182,7 @@ HalfSpace::stresses(const Eigen::MatrixX3d &points, const Eigen::VectorXd &force
       const bool above = points(i, 2) >= 0;
       require(above || other, "half-space: the point at z = ", points(i, 2),
               " lies in the body below, which is rigid");
-      // Seen from the body below, z is mirrored and shear is the opposite one.
+      // Seen from the body below, z is mirrored and shear changes its sign.
       const Vector3d side(1, 1, above ? 1 : -1), sign(above ? 1 : -1, above ? 1 : -1, 1);
       Matrix3d sum = Matrix3d::Zero();
       for (Index j = 0; j < n; ++j)

@@ -13,9 +13,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Distance over length from which on Gauss's rule is used.
+/// Least distance, as a share of the length, for which Gauss's rule is used.
 constexpr double apart = 0.5;
-/// Points and weights of an element: the functions times weights, for x; without, for s.
+/// Points of an element and its functions there; for x the functions are multiplied by the
+/// weights, for s they are not.
 struct Samples
 {
    VectorXd x;
@@ -52,17 +53,17 @@ struct Panel
    }
 };
 
-/// For products of the functions of two panels with what has no singularity closer to the
-/// interval than half its length.
+/// Rule for products of the functions of two panels and a factor without a singularity within
+/// half the length of the interval.
 const QuadratureRule &regular_rule(const Panel &p, const Panel &q)
 {
    return gauss_rule(static_cast<int>(p.element->order() + q.element->order()) + 17);
 }
 
-/// The values of several kernels at a pair of points, of the distance |x - s|, x and s.
+/// Computes several kernels at a pair of points, from the distance |x - s|, x and s.
 using Values = std::function<void(double distance, double x, double s, double *values)>;
 
-/// The integrals of all pairs of elements, of `count` kernels.
+/// Integrals of `count` kernels over all pairs of elements.
 class Integrals
 {
 public:
@@ -106,10 +107,11 @@ public:
 private:
    const SurfaceTrace &first_, &second_;
    const Values kernels_;
-   std::vector<double> values_;   ///< of each kernel at the pair of points at hand
-   std::vector<MatrixXd> blocks_; ///< of each kernel, of the pair of elements at hand
+   std::vector<double> values_;   ///< of each kernel, at the present pair of points
+   std::vector<MatrixXd> blocks_; ///< of each kernel, for the present pair of elements
    bool about_axis_;
-   std::vector<std::map<int, Samples>> whole_[2]; ///< of whole elements, by the points
+   std::vector<std::map<int, Samples>>
+      whole_[2]; ///< of whole elements, by the number of points
 
    static std::vector<Panel> panels(const SurfaceTrace &trace)
    {
@@ -135,7 +137,7 @@ private:
       else if (even && distance >= apart * longer) { add_apart(p, q, distance); }
       else
       {
-         // The longer one in halves, or an uneven one, or both if they are the same.
+         // Halves the longer panel, or the uneven one, or both if they are the same.
          const bool of_p = same || (p.uneven == q.uneven ? p.size() >= q.size() : p.uneven);
          const std::vector<Panel> ps = of_p ? p.halves(first_) : std::vector{p},
                                   qs = same || !of_p ? q.halves(second_) : std::vector{q};
@@ -146,7 +148,7 @@ private:
       }
    }
 
-   /// At fractions of a panel.
+   /// Samples at fractions of a panel.
    static Samples samples(const Panel &p, const SurfaceTrace &trace, const VectorXd &fractions,
                           const VectorXd &weights)
    {
@@ -156,7 +158,8 @@ private:
       at.phi *= (length * at.dx.cwiseProduct(weights)).asDiagonal();
       return {std::move(at.x), std::move(at.phi)};
    }
-   /// By Gauss's rule, in `part` unless the panel is a whole element, whose samples are kept.
+   /// Samples of Gauss's rule. Those of a whole element are kept, those of a part are stored in
+   /// `part`.
    const Samples &by_gauss(const Panel &p, int which, int points, Samples &part)
    {
       const SurfaceTrace &trace = which == 0 ? first_ : second_;
@@ -170,8 +173,9 @@ private:
       return made;
    }
 
-   /// Points of Gauss's rule for a singularity at a distance from a panel: its error falls as
-   /// ρ^(-2 points), with ρ the sum of the half axes of the ellipse through the singularity.
+   /// Number of points of Gauss's rule for a singularity at a distance from a panel. Its error
+   /// falls as ρ^(-2 points), where ρ is the sum of the half axes of the ellipse through the
+   /// singularity.
    static int points_for(const Panel &p, double distance)
    {
       const double reach = 1 + 2 * distance / p.size();
@@ -200,8 +204,9 @@ private:
       }
    }
 
-   /// A pair of points as fractions of two panels. The distance of x from the place where it
-   /// would meet s is a fraction of the first panel; so is that of s of the second.
+   /// A pair of points as fractions x and s of two panels. x_by is the distance of x from the
+   /// place where both would meet, as a fraction of the first panel, and s_by is that of s, of
+   /// the second panel.
    struct Pair
    {
       double x, s, weight, x_by, s_by;
@@ -210,7 +215,7 @@ private:
    {
       VectorXd x, s, weights, x_by, s_by;
    };
-   /// The points of two rules, each with each.
+   /// All pairs of points of two rules.
    template <class Place>
    static Pairs pairs(const QuadratureRule &a, const QuadratureRule &b, Place place)
    {
@@ -229,8 +234,9 @@ private:
       }
       return all;
    }
-   /// Lengths between points of a panel whose fractions differ by so much, to round-off however
-   /// little it is: the mean slope, which is of degree order - 1, times the difference.
+   /// Lengths between points of a panel whose fractions differ by `by`, to round-off however
+   /// small that is. A length is the mean slope, whose degree is order - 1, times the
+   /// difference.
    static VectorXd lengths(const Panel &p, const SurfaceTrace &trace, const VectorXd &from,
                            const VectorXd &to, const VectorXd &by)
    {
@@ -285,7 +291,7 @@ private:
       };
       add_halves(p, pairs(logarithmic_rule(), regular_rule(p, p), place));
    }
-   /// In the ratio of s to x.
+   /// The same at the axis, with the ratio of s to x as the variable.
    void add_at_axis(const Panel &p)
    {
       const auto place = [](double less, double at) {
@@ -327,7 +333,8 @@ struct ArithmeticGeometricMean
       double a = r + s, b = distance, c = std::min(r, s);
       double factor = 1;
       do {
-         // a and b become their means, and c = (a - b)/2 of those before c²/4a of the next.
+         // a and b become their means. c is (a - b)/2 of the step before, and so c²/4a of the
+         // next a.
          differences += factor * c * c;
          const double next = 0.5 * (a + b);
          b = std::sqrt(a * b);

@@ -40,7 +40,7 @@ struct Place
    }
 };
 
-/// ∫₀¹ of functions of u from a point a to a point b, on the straight way.
+/// ∫₀¹ of functions of u on the straight line from a point a to a point b.
 struct WayIntegrals
 {
    Point unit;      ///< u/r
@@ -78,8 +78,8 @@ struct EdgeIntegrals
    EdgeIntegrals(const Point &way, const Point &first, const Point &second)
    {
       const MoreDigits area = -cross(first, second);
-      // Below this angle, parallel edges are nearer to the truth than what round-off leaves of
-      // a flat parallelogram.
+      // Below this angle edges are taken as parallel. The error is smaller than the round-off
+      // of a flat parallelogram.
       constexpr MoreDigits least_angle = 1e-9;
       if (std::abs(area) <= least_angle * first.norm() * second.norm())
       {
@@ -261,7 +261,7 @@ KernelIntegrals integrals_at(const Eigen::Vector2d &point, const Polygon &polygo
 
 KernelIntegrals integrals_over(const Polygon &first, const Polygon &second)
 {
-   // At this distance the rule is nearer to the truth than 2e-11 of the integrals.
+   // At this distance the error of the rule is less than 2e-11 of the integrals.
    constexpr double far = 4;
    if (first.size() == 3 && second.size() == 3 &&
        (middle(first) - middle(second)).norm() > far * (radius(first) + radius(second)))

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 
 constexpr Index highest_order = LobattoBasis::highest_order;
 
-/// A rule that integrates the products of two functions, the element's slope and a polynomial
-/// of degree 4.
+/// A rule that is exact for two functions times the element's slope times a polynomial of
+/// degree 4.
 const QuadratureRule &product_rule(const SurfaceElement &element)
 {
    return gauss_rule(static_cast<int>(2 * element.order() + 3));
@@ -47,7 +47,8 @@ SurfaceTrace::SurfaceTrace(Index unknowns, std::vector<SurfaceElement> elements)
       require(order >= 1 && order <= highest_order,
               "half-plane: the order of a contact element is ", order, ", must be from 1 to ",
               highest_order);
-      // Between the nodes too, where the slope could turn: on 4 points for each of them.
+      // Checked between the nodes too, where the slope could change its sign: at 4 points for
+      // each node.
       const SurfacePoints at = points(element, VectorXd::LinSpaced(4 * order + 1, 0, 1));
       require(at.dx.minCoeff() > 0, "half-plane: the contact element from ", element.x[0],
               " to ", element.x[order],
@@ -75,7 +76,7 @@ SurfacePoints SurfaceTrace::points(const SurfaceElement &element, const VectorXd
 {
    const LobattoBasis &functions = lobatto_basis(element.order());
    const MatrixXd values = functions.values(t);
-   // Differences to the first node: small elements far from the origin lose no digits.
+   // With differences to the first node small elements far from the origin lose no digits.
    const VectorXd from_first = element.x.array() - element.x[0];
    return {values * from_first, values * (functions.slopes * from_first), values.transpose()};
 }

@@ -15,8 +15,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Normal forces after gaps have changed, at displacements across the interface alone: nodes
-/// that bear may open, and open ones close. No solution: not found.
+/// Normal forces after gaps have changed, with displacements across the interface alone. Nodes
+/// that bear may open, and open ones may close. Empty if no solution is found.
 std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, VectorXd open,
                                      const VectorXd &change)
 {
@@ -24,8 +24,7 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
    std::vector<bool> bears(p.size());
    for (Index i = 0; i < p.size(); ++i) { bears[i] = p[i] > 0 || open[i] < 0; }
    std::optional<VectorXd> found;
-   // The sets of nodes settle in a few rounds; of those that turn in a circle the last is
-   // taken.
+   // The sets of nodes settle in a few rounds. If they cycle the last one is taken.
    for (int round = 0; round < 50; ++round)
    {
       std::vector<int> closed, free;
@@ -33,7 +32,7 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
       {
          (bears[i] ? closed : free).push_back(static_cast<int>(i));
       }
-      // Closed nodes move by what is between them; on the others no force is left.
+      // Closed nodes move by their distance; on the others no force is left.
       VectorXd moved = VectorXd::Zero(p.size());
       for (const int i : closed) { moved[i] = -open[i]; }
       if (!free.empty())
@@ -81,7 +80,7 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
    if (off.isZero(0)) { return {}; }
    const ChordalError unknown{HUGE_VAL, HUGE_VAL};
    const bool bears = p.maxCoeff() > 0;
-   // How far nodes are open. Where that is not known those that are stay so.
+   // Openings of the nodes. If they are not known, open nodes stay open.
    VectorXd open = VectorXd::Constant(n, HUGE_VAL);
    if (w.size() == n) { open = problem.gap + w; }
    else if (!bears) { open = problem.gap; }
@@ -91,7 +90,7 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
    }
    if (!bears)
    {
-      // Smooth sides may meet, as far as the estimate is known, which is to a tenth of itself.
+      // May the smooth sides meet? The estimate is good to a tenth of itself.
       const bool meet = (off.array() < 0 && (open + 1.1 * off).array() < 0).any();
       if (meet && (problem.gap.array() >= 0).any()) { return unknown; }
       return {};
@@ -102,7 +101,7 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
                   then = after->cwiseQuotient(problem.weights);
    Index largest = 0;
    const double peak = now.maxCoeff(&largest);
-   // What bears is no more than round-off of what the curves would press: nothing is known.
+   // The pressures are no more than round-off beside those of the curves, so nothing is known.
    if (peak <= 1e-9 * then.maxCoeff()) { return unknown; }
    const double of_peak = std::max(std::abs(then.maxCoeff() - peak), peak - then[largest]);
    return {(then - now).cwiseAbs().maxCoeff() / peak, of_peak / peak};

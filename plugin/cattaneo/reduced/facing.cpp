@@ -20,7 +20,7 @@ Eigen::VectorXd ElementCurve::functions(double s) const
 
 Vector2d ElementCurve::place(double s) const
 {
-   // Differences to the first node: small elements far from the origin lose no digits.
+   // With differences to the first node small elements far from the origin lose no digits.
    const Vector2d from = element->points.col(0);
    return from + (element->points.colwise() - from) * functions(s);
 }
@@ -125,14 +125,15 @@ std::vector<ElementCurve> curves(const ContactLine &line, const std::string &wha
 namespace
 {
 
-/// How far the point at s lies beyond what faces it on the other element at t, along the mean
-/// tangent. Grows with s and with t: the lines run against each other.
+/// Signed distance along the mean tangent from the point at t on the other element to that at
+/// s, zero if they face each other. Grows with s and with t, as the lines run in opposite
+/// directions.
 double beyond(const ElementCurve &first, double s, const ElementCurve &other, double t)
 {
    return (first.place(s) - other.place(t)).dot(first.tangent(s) - other.tangent(t));
 }
 
-/// A part that may be, with how far apart the elements are there.
+/// A possible part, with the distance of the elements there.
 struct Candidate
 {
    FacingPart part;
@@ -155,7 +156,7 @@ double FacingLines::opposite(const FacingPart &part, double s) const
    const ElementCurve &one = first[part.element], &two = other[part.other];
    const auto value = [&](double t) { return beyond(one, s, two, t); };
    const double t = crossing(value, value(0), value(1));
-   // Elements that match do so to the last bit, whatever round-off of coordinates says.
+   // Elements that match do so to the last bit, whatever the round-off of coordinates.
    return std::abs(t - (1 - s)) <= 1e-13 ? 1 - s : t;
 }
 
@@ -177,7 +178,8 @@ FacingLines facing(const ContactLine &first, const ContactLine &other, const std
          if (middle.dot(two.tangents.col(0) + two.tangents.rightCols(1)) >= 0) { continue; }
          const Vector2d x0 = two.element->points.col(0), x1 = two.element->points.rightCols(1);
          const Vector2d u0 = two.tangents.col(0), u1 = two.tangents.rightCols(1);
-         // The other element runs backwards: its end faces the beginning of the part.
+         // The other element runs in the opposite direction: its end faces the beginning of the
+         // part.
          const double end_at_begin = (begin - x1).dot(t0 - u1),
                       end_at_end = (end - x1).dot(t1 - u1),
                       begin_at_begin = (begin - x0).dot(t0 - u0),

@@ -32,18 +32,19 @@ LineEnd other_end(const MetInterface &met, Index i, bool last)
          }
          const LineNode &other = met.master.line.nodes[k];
          const double beyond = (other.position - node.position).dot(out);
-         // A line that runs on beyond the slave's last node has its end elsewhere, unless the
-         // slave goes on as well.
+         // If the other line runs on beyond the slave's last node, its end is elsewhere, unless
+         // the slave goes on as well.
          const LineChain &own = met.slave.line.chain_of(mortar.nodes[i]);
          const bool at_end =
             mortar.nodes[i] == (last ? own.first + own.nodes - 1 : own.first) && !own.loop;
          if (!faces || (at_end && beyond > 1e-6 * node.spacing)) { continue; }
-         // A chain of one node has two ends there: the one that does not go on decides.
+         // A chain of one node has both ends there: the one that does not go on decides.
          if (chain.nodes == 1)
          {
             return chain.ends[0] == LineEnd::smooth ? chain.ends[1] : chain.ends[0];
          }
-         // The lines run against each other: its last node is at this one's first.
+         // The lines run in opposite directions: the last node of the other one is at the first
+         // of this one.
          if (end != (last ? 0 : 1)) { continue; }
          return chain.ends[end];
       }
@@ -102,8 +103,8 @@ InterfaceReport report_of(const MetInterface &met)
    }
    report.chords = mortar.chords;
    report.curved = mortar.curved;
-   // On an obstacle the gap that is given is that of its shape. Sides that match have the same
-   // chords; of those that are paired by name one may be straight.
+   // On an obstacle a given gap is that of its shape. Sides that match have the same chords,
+   // but of sides that are paired by name one may be straight.
    const bool same = report.matching && !given.pairing;
    if ((given.gap && met.master.body >= 0) || given.tied || same)
    {
@@ -127,8 +128,8 @@ void add_facts(ReducedProblem &problem, Index first, bool matching, const MetInt
    {
       const LineNode &node = line.nodes[mortar.nodes[i]];
       const double x = node.position[0], y = node.position[1];
-      // An obstacle is as far away as the outline of the side is, of a pair of bodies a gap is
-      // said of the nodes.
+      // On an obstacle the gap is that of the side's outline, between two bodies that of the
+      // nodes.
       const double gap = !given.gap            ? mortar.gap[i]
                          : met.master.body < 0 ? (*given.gap)(outline(mortar.nodes[i], 0),
                                                               outline(mortar.nodes[i], 1))
@@ -171,7 +172,7 @@ void add_facts(ReducedProblem &problem, Index first, bool matching, const MetInt
       {
          const Index i = last ? end - 1 : begin;
          const Index outer = last ? chain.first + chain.nodes - 1 : chain.first;
-         bool at_end = !chain.loop; // or beyond it all nodes are others'
+         bool at_end = !chain.loop; // or all nodes beyond belong to other interfaces
          for (Index k = mortar.nodes[i]; k != outer && at_end;)
          {
             k += last ? 1 : -1;

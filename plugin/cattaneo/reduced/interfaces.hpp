@@ -14,13 +14,13 @@ struct InterfaceSide
    ContactLine line; ///< all of its nodes are nodes of the condensed body's line
 };
 
-/** Which side carries the nodes of the reduced problem. Nodes are nearer to each other or not
-    in the (geometric) mean; if they are as near the first side is taken, unless it is ten times
-    as stiff as the second one. The coarser one is the
-    choice that is safe: it has no more forces than either body has displacements. A finer slave
-    that is stiff, on a coarse soft master, has tractions that swing from node to node
-    (docs/interfaces.md has figures). Where the side that is taken cannot be the slave
-    (supports hold nodes of it, or all carry rows already) the other one is. */
+/** Which side carries the nodes of the reduced problem (the slave). The coarser side is the one
+    whose nodes are farther apart in the geometric mean. If both are alike it is the first one,
+    unless that is ten times as stiff as the second one. The coarser side is the safe choice: it
+    has no more forces than either body has displacements. A finer, stiff slave on a coarse,
+    soft master has tractions that swing from node to node (docs/interfaces.md has figures). If
+    the chosen side cannot be the slave (supports hold nodes of it, or all of them carry rows
+    already) the other one is. */
 enum class SlaveSide
 {
    coarser,
@@ -36,25 +36,24 @@ struct Interface
    InterfaceSide first;                  ///< body 1 of its frames
    InterfaceSide second;                 ///< the other body, or a rigid obstacle
    SlaveSide slave = SlaveSide::coarser; ///< which of the two has the nodes
-   /// Initial gap as a function of the contact nodes' places, instead of that of the geometry;
-   /// 0.0: closed, whatever chordal errors say. A rigid obstacle is closed unless this is
-   /// given.
+   /// Initial gap as a function of the contact nodes' places, instead of that of the geometry.
+   /// 0.0 closes the interface, whatever the chordal errors. A rigid obstacle is closed unless
+   /// this is given.
    std::optional<ScalarField> gap = std::nullopt;
-   /// Largest overlap of the geometry that is taken for what it is, in lengths of the slave's
-   /// elements.
+   /// Largest overlap of the geometry that is accepted, in lengths of the slave's elements.
    double most_overlap = 0.1;
    /// The sides are joined, u = 0 on all nodes, whatever the gap: glued, welded, or one body
-   /// meshed in two. The nodes are none of the reduced problem.
+   /// meshed in two parts. The reduced problem does not contain these nodes.
    bool tied = false;
-   /// Nodes of both lines one to one, of the first side, which has them then, whatever `slave`
-   /// says; with the gap of each unless `gap` is given. Where elements of both sides differ it
-   /// is taken all the same, which InterfaceReport::differing says.
+   /// Pairs the nodes of both lines one to one, with the gap of each pair unless `gap` is
+   /// given. The first side is then the slave, whatever `slave` says. The pairing is used even
+   /// if elements of both sides differ; InterfaceReport::differing tells where.
    std::optional<Pairing> pairing = std::nullopt;
 };
 
-/** Any number of bodies over any number of interfaces. With U the contact displacements of all
-    bodies and S their stiffnesses, each contact node has u = G U, the relative displacement of
-    its Mortar row; with U = R u + Z y (y: all contact dofs that are no slave's)
+/** Any number of bodies that touch at any number of interfaces. U are the contact displacements
+    of all bodies, S their stiffnesses. Contact nodes have the relative displacements u = G U of
+    their Mortar rows. With U = R u + Z y (y: all contact dofs that are not a slave's)
 
        K = Rᵀ[S - S Z (Zᵀ S Z)⁻¹ Zᵀ S] R,
 
@@ -64,20 +63,20 @@ struct Interface
    have P = 1 in any union.
 
     A body is condensed once, to joined() of all its lines, whatever the number of its
-    interfaces; nodes of it that no interface has are free. A node is a slave once: of a second
-    interface that has it as well it carries no row, nor where rows would go in a ring (crack
-    tips of a body that touches itself, interfaces that meet at one point), nor at an end of its
-    line that supports hold in both components. Relative
-    displacements of the nodes are in the common frame of both sides; on a plane of symmetry of
-    both that is across it.
+    interfaces. Its nodes that belong to no interface are free. A node is a slave once. It
+    carries no row for a second interface that contains it too, nor where rows would go in a
+    ring (crack tips of a body that touches itself, interfaces that meet at one point), nor at
+    an end of its line that supports hold in both components. Relative displacements of the
+    nodes are in the common frame of both sides, which on a plane of symmetry of both is across
+    that plane.
 
-    Nodes of tied interfaces have u = 0: their rows and columns are left out, and
-    Reduction::tied_forces() says what they transfer.
+    Nodes of tied interfaces have u = 0. Their rows and columns are left out;
+    Reduction::tied_forces() has the forces that they transfer.
 
-    Rigid motions that supports leave free are known from the bodies: those that bodies which
-    touch have in common are at rest in the mean over their traces, which takes nothing from
-    what happens at interfaces; loads that push them are refused. If the slave of an interface
-    is much stiffer than its master digits are lost: of a ratio of 1e6 of the stiffnesses six.
+    Rigid motions that supports leave free are known from the bodies. A motion that touching
+    bodies have in common is set to zero in the mean over their traces, which does not affect
+    the interfaces; loads that push along it are refused. If the slave of an interface is much
+    stiffer than its master, digits are lost: six at a ratio of 1e6 of the stiffnesses.
 
     InputError, with the names of interface and bodies and coordinates, if numbers of bodies or
     nodes do not fit, a body is at no interface, sides do not face each other or overlap by more
@@ -85,21 +84,23 @@ struct Interface
     other side is not, or nothing holds the bodies together. */
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces);
 
-/// What chords of curved sides (InterfaceReport::chords) make of pressures, as shares of the
-/// largest one. Estimates, of gaps alone.
+/// Error of the pressures because curved sides are meshed as chords (InterfaceReport::chords),
+/// as shares of the largest pressure. An estimate, from the error of the gaps alone.
 struct ChordalError
 {
    double at_a_node = 0; ///< the largest change of the pressure of a node
-   /// The change of the largest pressure, which may move to another node; at least the fall of
-   /// the pressure at the node that has it now, as others may then be largest only because
-   /// pressures swing from node to node, of linear elements above all.
+   /// The change of the largest pressure, which may move to another node. It is at least the
+   /// fall of the pressure at the node that has the largest one now: another node may only
+   /// become the largest because pressures swing from node to node, above all with linear
+   /// elements.
    double of_peak = 0;
 };
 
-/** How pressures would change if gaps were those of the curves, with the displacements along
-   the interface as they are. 0 where sides are straight, their elements match, or are linear
-   and gaps are those of nodes (on obstacles, on half-planes and paired): vertices are on the
-   curve. Where nothing bears both are infinite if smooth sides may meet, else 0.
+/** How pressures would change if gaps were those of the curves, with unchanged displacements
+    along the interface. The change is 0 if sides are straight or their elements match. It is
+    also 0 for linear elements with gaps from node to node (on obstacles, on half-planes and
+    paired), as the vertices are on the curve. If no node bears, both shares are infinite if the
+    smooth sides may meet, else 0.
 
     @param p normal forces of the contact nodes
     @param w their normal displacements, which tell how far nodes are open that may close; left
@@ -108,10 +109,10 @@ struct ChordalError
 ChordalError chordal_error(const Reduction &reduction, const Eigen::VectorXd &p,
                            const Eigen::VectorXd &w = {});
 
-/** Bodies that meet at interfaces but keep displacements of their own, for programs of joint
-    dynamics. U: contact displacements of all bodies that are not held, {v; w} of each in the
-    frames of its line, one body after the other; u = {v; w}: the relative ones of the contact
-    nodes, in the order of reduce() where nodes do not match.
+/** Bodies that meet at interfaces but keep their own displacements, for programs of joint
+    dynamics. U are the contact displacements of all bodies that are not held: {v; w} of each
+    body in the frames of its line, one body after the other. u = {v; w} are the relative
+    displacements of the contact nodes, in the order of reduce() for nodes that do not match.
 
        K U + Σ λ_k f_k = Lᵀ {q; p},    u = L U */
 struct SeparateBodies

@@ -29,12 +29,13 @@ constexpr double least_own = 0.1;
 /// A neighbour shorter than this share of an element's length gets the end of the element.
 constexpr double short_neighbour = 0.2;
 
-/// In parameters of an element: round-off of roots.
+/// Round-off of roots, in parameters of an element.
 constexpr double near = 1e-9;
 
-/** The functions of an element's contact nodes for a component: its own ones, with that of a
-    node on the axis added to the others by what they make of its displacement. Along the axis
-    displacements are even in r, away from it odd. Functions of the element × contact nodes. */
+/** Functions of an element's contact nodes, by component, as combinations of the element's
+    functions (functions of the element × contact nodes). A node on the axis is no contact node:
+    its displacement follows from the others, as displacements along the axis are even in r and
+    those away from it odd. */
 struct Trace
 {
    std::vector<Index> nodes;  ///< of the line
@@ -80,15 +81,15 @@ struct Point
    std::size_t other;    ///< element of the master
    VectorXd own, facing; ///< functions of both elements
    Vector2d apart;       ///< x_s - x_m, on the outlines
-   Vector2d chords;      ///< what smooth curves would add to it
-   Vector2d curved;      ///< what chords would take from it
+   Vector2d chords;      ///< by which smooth curves would change it
+   Vector2d curved;      ///< by which it differs from that of the chords
 };
 
 /// A point of a line's outline.
 struct Outline
 {
-   Vector2d place, left;  ///< and what a smooth curve is off it
-   Vector2d curved{0, 0}; ///< how far it is off a chord that was taken for a curve
+   Vector2d place, left;  ///< the point, and the distance of a smooth curve from it
+   Vector2d curved{0, 0}; ///< distance from the chord, if a curve was taken
 
    Outline(const ElementCurve &curve, double s, bool as_meshed)
       : place(curve.place(s)), left(curve.bulge(s))
@@ -110,10 +111,10 @@ bool follows_curve(const ElementCurve &curve, bool as_meshed)
    return !as_meshed && curve.element->bend && !curve.element->bend->straight();
 }
 
-/** Where on the curve of another element is what faces a point of an outline, across the mean
-   of both curves' own directions; t: where elements say that it is. Two arcs of one circle are
-   at the same place there, and their gap is zero whatever their chords. The answer may lie a
-    little beyond the element's ends: there its curve goes on. */
+/** Parameter of the point on another element's curve that faces a point of an outline, across
+    the mean of both curves' directions. t is the answer of the elements themselves. Two arcs of
+    one circle then face each other at the same place, and their gap is zero whatever their
+    chords. The answer may lie a little beyond the element's ends, where its curve goes on. */
 double opposite_on_curve(const ElementCurve &first, double s, const ElementCurve &other,
                          double t)
 {
@@ -135,9 +136,9 @@ double opposite_on_curve(const ElementCurve &first, double s, const ElementCurve
    return std::abs(at - (1 - s)) <= 1e-13 ? 1 - s : at;
 }
 
-/// Linear from each place to the next and constant beyond the outer ones, never negative, at
-/// all points: functions × points. Their kinks are not integrated exactly, which does not
-/// matter: all that is made of them is integrated at the same points.
+/// Hat functions at all points (functions × points): linear from each place to the next,
+/// constant beyond the outer places, never negative. The rule does not integrate their kinks
+/// exactly, which does not matter, as all their integrals use the same points.
 MatrixXd hats(const VectorXd &places, const std::vector<Point> &points)
 {
    const auto last = static_cast<std::size_t>(places.size() - 1);
@@ -157,19 +158,20 @@ MatrixXd hats(const VectorXd &places, const std::vector<Point> &points)
    return values;
 }
 
-/// How far the ends of an element reach that are its neighbours', in parameters; 0: not.
+/// Lengths at both ends of an element that belong to short neighbours, in parameters; 0 if
+/// none.
 using NearEnds = std::array<double, 2>;
 
-/// The functions of an element's nodes at the points, with others in the place of those at ends
-/// that belong to a short neighbour: hats as narrow as that one. The rest of theirs goes to the
-/// node beside. They sum to 1 as before.
+/// The functions of an element's nodes at the points. At an end with a short neighbour the
+/// function becomes a hat as narrow as the neighbour, and the next node gets the difference.
+/// The sum stays 1.
 MatrixXd narrowed(MatrixXd functions, const VectorXd &places, const std::vector<Point> &points,
                   const NearEnds &ends)
 {
    const Index last = places.size() - 1;
    const bool has_first = ends[0] > 0 && places[0] == 0,
               has_last = ends[1] > 0 && places[last] == 1;
-   // Two nodes have no third function for what both leave.
+   // With two nodes that both become narrow, no third function could get the difference.
    if (last < 1 || (last == 1 && has_first && has_last)) { return functions; }
    const auto narrow = [&](Index end, Index beside, double from, double reach)
    {
@@ -189,12 +191,13 @@ MatrixXd narrowed(MatrixXd functions, const VectorXd &places, const std::vector<
 /// Dual functions at the points (times their weights) for some of an element's nodes.
 struct DualFunctions
 {
-   std::vector<int> nodes; ///< places in Trace::nodes
+   std::vector<int> nodes; ///< indices in Trace::nodes
    MatrixXd weighted;      ///< nodes × points
    bool positive = false;  ///< each sees enough of its own node
 };
 
-/// For the functions `phi` of all nodes of an element, made of `tests`, each × points.
+/// Dual functions to the functions `phi` of an element's nodes, as combinations of `tests`
+/// (both: functions × points).
 DualFunctions made_of(const MatrixXd &tests, const MatrixXd &phi, const VectorXd &weights,
                       const std::vector<int> &nodes)
 {
@@ -237,7 +240,7 @@ std::string why_apart(const FacingLines &lines)
    return text.str();
 }
 
-/// The master's elements and the slave's, and what is summed over them.
+/// Sums the integrals over the elements of the slave and the master.
 class Assembly
 {
 public:
@@ -261,7 +264,7 @@ private:
    struct Neighbour
    {
       Index row = -1;   ///< a node of the slave; -1: none
-      int elements = 0; ///< without functions between it and this one
+      int elements = 0; ///< elements without functions between it and this one
    };
    Neighbour neighbour(std::size_t element, bool after) const;
    void extend(std::size_t element);
@@ -275,7 +278,8 @@ private:
    std::vector<std::vector<Index>> functions_;  ///< rows on each slave element, along it
    std::vector<Trace> master_traces_;
    std::array<std::map<std::pair<Index, Index>, double>, 2> own_, other_;
-   Eigen::MatrixX2d apart_, chords_, curved_; ///< ∫ψ of what points have, of each slave node
+   Eigen::MatrixX2d apart_, chords_,
+      curved_; ///< ∫ψ times the values of the points, for each slave node
    VectorXd weights_, size_;
    double left_out_ = 0;
 };
@@ -308,11 +312,12 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { extend(e); }
 }
 
-/** Where a long element ends at a short one. What its end node sees of the other body would be
-    a mean over the long element, and that of nodes on the short one would be what faces them:
-    both differ by what the long element cannot follow, which would strain the short one by as
-    much over its own length, and press its nodes many times as hard as all others. So what is
-    near the end decides there, as far as the short element reaches. */
+/** Finds the ends of long elements at short ones. The end node would see a mean of the other
+    body over the long element, while nodes on the short element see the points that face them.
+    Both differ by the part of the displacement that the long element cannot follow. That
+    difference over the short length would be a large strain, and would press the nodes there
+    many times as hard as all others. So the function of the end node is only as wide as the
+    short element. */
 void Assembly::find_near_ends()
 {
    std::map<Index, std::vector<std::pair<std::size_t, int>>>
@@ -360,7 +365,7 @@ std::vector<Point> Assembly::points_of(std::size_t element) const
    const ElementCurve &curve = lines_.first[element];
    std::vector<Point> points;
    std::vector<FacingPart> pieces = parts_[element];
-   // Functions that are narrow near an end are integrated by themselves.
+   // Narrow functions near an end are integrated over their own interval.
    const auto &[first, last] = near_ends_[element];
    for (double cut : {first, 1 - last})
    {
@@ -375,8 +380,8 @@ std::vector<Point> Assembly::points_of(std::size_t element) const
    for (const FacingPart &part : pieces)
    {
       const ElementCurve &other = lines_.other[part.other];
-      // Exact for the product of three functions of straight elements, with some to spare for
-      // curved ones.
+      // Exact for the product of three functions of straight elements, with some more points
+      // for curved ones.
       const QuadratureRule &rule = gauss_rule(
          static_cast<int>(curve.order() + std::max(curve.order(), other.order()) + 3));
       for (Index k = 0; k < rule.points.size(); ++k)
@@ -420,7 +425,8 @@ DualFunctions Assembly::dual(const Trace &trace, std::size_t element,
    return made_of(all ? phi : hats(trace.places(nodes), points), phi, weights, nodes);
 }
 
-/// Which of an element's nodes have functions on what is faced of it; none: it leaves the line.
+/// The nodes of an element that have functions on its faced part. Empty: the line leaves the
+/// master there.
 std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
                                         const std::vector<Point> &points)
 {
@@ -438,7 +444,7 @@ std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
       return sum;
    };
    std::vector<int> free, inside, ends;
-   bool share = true; // do all nodes have their share?
+   bool share = true; // is the share of all nodes large enough?
    for (int j = 0; j < static_cast<int>(trace.nodes.size()); ++j)
    {
       const Index node = trace.nodes[j];
@@ -501,7 +507,8 @@ void Assembly::add(std::size_t element)
              dual(trace, element, points, 1, nodes).weighted});
 }
 
-/// Adds functions (times the weights of the points) on an element to rows.
+/// Adds the integrals of functions on an element to rows. `psi` has the functions times the
+/// weights of the points.
 void Assembly::add_rows(const Trace &trace, std::size_t element,
                         const std::vector<Point> &points, const std::vector<Index> &rows,
                         const std::array<MatrixXd, 2> &psi)
@@ -530,7 +537,7 @@ void Assembly::add_rows(const Trace &trace, std::size_t element,
             const VectorXd own = trace.x[component].transpose() * point.own;
             for (std::size_t j = 0; j < trace.nodes.size(); ++j)
             {
-               // Zero but for round-off among nodes with functions.
+               // Among nodes with functions this is zero, apart from round-off.
                const Index node = trace.nodes[j];
                if (node != row && std::count(dual_to.begin(), dual_to.end(), node))
                {
@@ -543,7 +550,7 @@ void Assembly::add_rows(const Trace &trace, std::size_t element,
    }
 }
 
-/// The nearest row along the line before or after an element, if all up to there is faced.
+/// The nearest row along the line before or after an element, if the line is faced up to there.
 Assembly::Neighbour Assembly::neighbour(std::size_t element, bool after) const
 {
    const std::vector<ElementCurve> &all = lines_.first;
@@ -571,9 +578,10 @@ Assembly::Neighbour Assembly::neighbour(std::size_t element, bool after) const
    return found;
 }
 
-/** What is faced of an element without functions (its nodes carry rows of another interface, or
-    lie beyond what is faced): the rows beside it see it too, with functions that go on from
-    theirs, so that a constant pressure is one there as well. */
+/** Gives the faced part of an element without functions to the next rows. Nodes of such an
+    element carry rows of another interface, or lie beyond the faced part. The functions of the
+    next rows go on into the element, so that a constant pressure stays constant there as well.
+    */
 void Assembly::extend(std::size_t element)
 {
    if (covered(element) < near || !functions_[element].empty()) { return; }

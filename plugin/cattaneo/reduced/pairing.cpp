@@ -36,7 +36,7 @@ bool knows_elements(const ContactLine &line)
                        [](const LineChain &chain) { return chain.elements.empty(); });
 }
 
-/// Nodes of line 2 for those of line 1, as far as there are.
+/// Nodes of line 2 for those of line 1, as far as they are found.
 struct Matches
 {
    std::vector<int> partner; ///< -1: none
@@ -132,7 +132,7 @@ LineNode mean_frame(LineNode node, const LineNode &other)
 namespace
 {
 
-/// All nodes one to one, if that is possible, whatever the elements are.
+/// Pairs all nodes one to one, if that is possible, whatever the elements.
 std::optional<Pairing> paired_nodes(const ContactLine &line1, const ContactLine &line2,
                                     double tolerance)
 {

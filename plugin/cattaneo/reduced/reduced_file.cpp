@@ -16,7 +16,7 @@ const char *const format_name = "cattaneo reduced problem 2";
 const char *const format_laws = "cattaneo reduced problem 3"; // only where it has such laws
 const char *const format_1 = "cattaneo reduced problem 1";    // without the facts
 
-// "axis" is any symmetry: files keep the word that they began with.
+// "axis" means any symmetry: files keep the word of the first format.
 const std::vector<std::string> end_names = {"unknown", "smooth", "corner", "axis", "open"};
 
 nlohmann::json to_json(const std::array<LineEnd, 2> &ends)
@@ -84,8 +84,8 @@ void from_json(const nlohmann::json &j, Matrix &M)
    std::copy(values.begin(), values.end(), M.data());
 }
 
-/// Chains of format 1, which does not say them: one of all nodes, or a new one wherever the arc
-/// length, if there is one, does not grow.
+/// Chains of a file of format 1, which does not state them: one chain of all nodes, or a new
+/// one wherever the arc length, if there is one, does not grow.
 std::vector<ContactChain> found_chains(const Eigen::VectorXd &arc_length, Eigen::Index nodes)
 {
    std::vector<ContactChain> chains;
@@ -134,7 +134,7 @@ void save(const ReducedProblem &problem, const std::string &file)
    }
    if (!problem.laws.empty())
    {
-      // Whoever does not know of the laws must not take the friction for them.
+      // A reader that does not know the laws must not use `friction` in their place.
       j["format"] = format_laws;
       for (const FrictionLaw &law : problem.laws)
       {
@@ -163,8 +163,8 @@ void save(const ReducedProblem &problem, const std::string &file)
 namespace
 {
 
-/// What a file is expected to have; a key that is not known would be passed over without a
-/// word, laws of friction in a file of format 2 among them.
+/// The keys that a file may have. Without this check an unknown key would be ignored silently,
+/// for instance laws of friction in a file of format 2.
 void require_known_keys(const nlohmann::json &j, const std::vector<std::string> &known,
                         const std::string &of)
 {

@@ -18,24 +18,25 @@ struct ContactChain
    Eigen::Index first = 0; ///< first node
    Eigen::Index nodes = 0; ///< number of nodes
    bool loop = false;      ///< the last node is followed by the first
-   /// How the boundary goes on beyond the first and the last node, of the body that carries the
-   /// nodes and of the other one (a rigid obstacle goes on smoothly).
+   /// How the boundary of the body that carries the nodes goes on beyond the first and the last
+   /// node.
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    std::array<LineEnd, 2> other_ends{
-      LineEnd::unknown, LineEnd::unknown}; ///< the same of the body that faces them
-   /// Numbers of the bodies that carry the nodes and that face them, as in the columns of
-   /// `dofs`; the same of a body that touches itself, -1: a rigid obstacle.
+      LineEnd::unknown, LineEnd::unknown}; ///< the same for the body that faces them; a rigid
+                                           ///< obstacle goes on smoothly
+   /// Number of the body that carries the nodes, then of the one that faces them, as in the
+   /// columns of `dofs`. -1 is a rigid obstacle. A body that touches itself is both.
    std::array<int, 2> bodies{0, -1};
 
-   /// True if end 0 (the first node) or 1 (the last) lies on a plane or axis of symmetry of all
-   /// that touches there: the contact goes on beyond it as its own mirror image.
+   /// Does end 0 (the first node) or 1 (the last) lie on a plane or axis of symmetry of all
+   /// bodies that touch there? The contact goes on beyond it as its own mirror image.
    bool mirrored_at(std::size_t end) const;
 };
 
-/** What the tangential force of a node is bounded by, over its normal force p: polylines from
-    (0, 0) through points (p, bound), which go on straight beyond the last. One for slip forward
-    (v grows, q = -bound), one for slip backward. Nodal forces, as all of the reduced problem;
-    set_friction_law() makes them of tractions. */
+/** Bound of a node's tangential force as a function of its normal force p: polylines from (0,
+    0) through points (p, bound), which go on straight beyond the last point. One is for slip
+    forward (v grows, q = -bound), one for slip backward. Both are in nodal forces, as the whole
+    reduced problem is. set_friction_law() computes them from tractions. */
 struct FrictionLaw
 {
    Eigen::MatrixX2d forward;  ///< at least one point; p grows from above zero
@@ -43,7 +44,7 @@ struct FrictionLaw
 
    /// The largest slope of both.
    double steepest() const;
-   /// No piece of either is steeper than the one before, but for rounding of their points.
+   /// Is no piece of either steeper than the one before, apart from rounding of the points?
    bool concave() const;
 };
 
@@ -65,23 +66,23 @@ struct ReducedProblem
 {
    /// The whole reduced stiffness [A Bᵀ; B C], (c+1)·n × (c+1)·n, symmetric.
    Eigen::MatrixXd K;
-   /// Is B not zero? Where it is, to the last bit, the normal problem does not know of
-   /// friction. Nothing below the reduction takes a small B for zero.
+   /// Is any entry of B not exactly zero? If none is, friction does not affect the normal
+   /// problem. However small an entry is, it counts.
    bool coupled = false;
 
    std::vector<LoadPattern> patterns; ///< loads, in the order of multipliers
 
-   /// Response of the loads to the loads with the contact nodes clamped (u = {v; w} = 0), in
-   /// the order of the patterns: the conjugate of pattern k (displacement of a force, reaction
+   /// Conjugates of the loads by the loads with the contact nodes clamped (u = {v; w} = 0), in
+   /// the order of the patterns. The conjugate of pattern k (displacement of a force, reaction
    /// of a prescribed displacement) is g = H λ ∓ F_kᵀ u, minus for force control, see
-   /// conjugates(); nothing else depends on it. No rows: not known.
+   /// conjugates(). Nothing else depends on H. No rows: H is not known.
    Eigen::MatrixXd H;
 
    Eigen::VectorXd gap;      ///< initial gap g of each of the n nodes: closed where w + g = 0
    Eigen::VectorXd friction; ///< Coulomb coefficient f of each node, size n
-   /// None: Coulomb's law |q| <= f p. Else another one of each node, size n, of which
-   /// `friction` is the steepest slope, so that Coulomb's would hold more: see
-   /// set_friction_law().
+   /// Empty: Coulomb's law |q| <= f p. Otherwise a law for each node, size n, whose steepest
+   /// slope is the node's `friction`: no law allows more than Coulomb's with that coefficient.
+   /// See set_friction_law().
    std::vector<FrictionLaw> laws;
    Eigen::VectorXd weights; ///< consistent weight ∫φ_i of each node: traction = force / weight
 
@@ -92,18 +93,21 @@ struct ReducedProblem
    /// n × 2k: true dofs (x, y) of each contact node in each of the k bodies, -1 where none.
    Eigen::MatrixXi dofs;
 
-   /// Lines that the nodes form, in their order, each node on one: the interface and the bodies
-   /// of each node. Empty for nodes that do not follow each other, see also one_chain().
+   /// Lines that the nodes form, in the order of the nodes. Each node is on one of them, which
+   /// tells its interface and bodies. Empty if the nodes do not follow each other. See also
+   /// one_chain().
    std::vector<ContactChain> chains;
-   /// Nodes of a surface at its rim, beyond which the bodies go on: contact there is cut off,
-   /// see cut_off_contact(). Lines have the ends of their chains.
+   /// Nodes at the rim of a surface in space, beyond which the bodies go on: contact that
+   /// reaches the rim is cut off, see cut_off_contact(). On lines the ends of the chains tell
+   /// this.
    std::vector<Eigen::Index> rim;
-   /// Rigid motions {v; w} that nothing resists, one orthonormal column each, as they were
-   /// imposed on the stiffness: (c+1)·n × k, k = 0 if the bodies are held. Of a problem made by
-   /// hand complete() seeks them, and files must state all of them; a march does not seek.
+   /// Rigid motions {v; w} that nothing resists, as they were imposed on the stiffness, in
+   /// orthonormal columns: (c+1)·n × k, k = 0 if the bodies are held. complete() finds them for
+   /// a problem made by hand, and a file must state all of them. A march does not look for
+   /// them.
    Eigen::MatrixXd rigid_motions;
-   /// Rows of A (tangential components of nodes) that are held: v = 0 there whatever happens,
-   /// and no law of friction. They are coupled to nothing and loaded by nothing, see hold().
+   /// Rows of A (tangential components of nodes) that are held: always v = 0, without a law of
+   /// friction. They are coupled to nothing and loaded by nothing, see hold().
    std::vector<Eigen::Index> held;
 
    /// Number of contact nodes n.
@@ -113,12 +117,12 @@ struct ReducedProblem
    /// Number of tangential displacements, c·n.
    Eigen::Index slips() const { return K.rows() - nodes(); }
 
-   /// Tangential stiffness, c·n × c·n; a view of K, as the other two.
+   /// Tangential stiffness, c·n × c·n; a view of K, as B and C are.
    auto A() const { return K.topLeftCorner(slips(), slips()); }
    /// The same, to be written to.
    auto A() { return K.topLeftCorner(slips(), slips()); }
-   /// Coupling, n × c·n: normal force by tangential displacement. K has its transpose as well:
-   /// who writes B calls complete().
+   /// Coupling, n × c·n: normal force by tangential displacement. K also contains its
+   /// transpose, so call complete() after writing to B.
    auto B() const { return K.bottomLeftCorner(nodes(), slips()); }
    /// The same, to be written to.
    auto B() { return K.bottomLeftCorner(nodes(), slips()); }
@@ -127,7 +131,7 @@ struct ReducedProblem
    /// The same, to be written to.
    auto C() { return K.bottomRightCorner(nodes(), nodes()); }
 
-   /// Is H known? Else conjugates are known but for a part that is linear in the loads.
+   /// Is H known? If not, conjugates lack a part that is linear in the loads.
    bool knows_loads() const { return H.rows() > 0 || patterns.empty(); }
 
    /// Names of the patterns, in their order.
@@ -135,64 +139,65 @@ struct ReducedProblem
    /// Index of the pattern of that name; InputError with the list of names if there is none.
    int pattern(const std::string &name) const;
 
-   /// Multipliers in the order of the patterns, zero for those that are not named; InputError
-   /// for a name that no pattern has.
+   /// Multipliers in the order of the patterns, zero for patterns that `loads` does not name.
+   /// InputError for a name that no pattern has.
    Eigen::VectorXd multipliers(const NamedLoads &loads) const;
 
    /// f^w = Σ λ_k {q_k; p_k}, size (c+1)·n.
    Eigen::VectorXd clamped_forces(const Eigen::VectorXd &multipliers) const;
 
-   /// K of its blocks, with the rigid motions that are known. Gap and friction are zero unless
-   /// they have the size of C already. InputError if the sizes of the blocks disagree.
+   /// Sets K from its blocks, and the rigid motions, which are known. Gap and friction become
+   /// zero unless they have the size of C already. InputError if the sizes of the blocks
+   /// disagree.
    void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                       const Eigen::MatrixXd &C, const Eigen::MatrixXd &rigid_motions);
    /// For a problem made by hand: the same, then complete() and require_semidefinite().
    void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                       const Eigen::MatrixXd &C);
 
-   /// InputError if sizes disagree, entries are not finite, K is not symmetric, a diagonal
-   /// is not positive, `coupled` is wrong, a friction coefficient is negative, a law of
-   /// friction is none or has another steepest slope, chains do not cover the nodes, a rigid
-   /// motion is resisted, or a held row is coupled or loaded.
+   /// InputError if sizes disagree, entries are not finite, K is not symmetric, a diagonal is
+   /// not positive, `coupled` is wrong, a friction coefficient is negative, a law of friction
+   /// is not valid or has another steepest slope, chains do not cover the nodes, a rigid motion
+   /// is resisted, or a held row is coupled or loaded.
    void validate() const;
 };
 
-/// Completes a problem whose A, B or C were written by hand: Bᵀ in K, whether it is coupled,
-/// and the rigid motions, which are those that the stiffness does not resist by more than the
-/// rounding of its entries.
+/// Completes a problem whose A, B or C were written by hand: copies B into its transpose in K,
+/// sets `coupled`, and finds the rigid motions. Those are the motions that the stiffness
+/// resists by no more than the rounding of its entries.
 void complete(ReducedProblem &problem);
-/// The same for who knows the rigid motions {v; w}, which are not sought: columns, (c+1)·n × k,
-/// which need not be orthonormal. InputError if they are not independent, one of them is
-/// resisted, or one that nothing resists is not among them. Costs a Cholesky factor.
+/// The same with given rigid motions {v; w}: columns, (c+1)·n × k, which need not be
+/// orthonormal. InputError if they are not independent, one of them is resisted, or one that
+/// nothing resists is missing. Costs a Cholesky factor.
 void complete(ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions);
 /// InputError if the stiffness does not resist a motion that the problem does not state.
 void require_all_motions_stated(const ReducedProblem &problem);
-/// The first two of these alone, without a check.
+/// Copies B into its transpose and sets `coupled`, without a check and without rigid motions.
 void join_coupling(ReducedProblem &problem);
-/// InputError if some displacement of the nodes meets energy below zero, which no body does:
-/// such a stiffness has several answers, and what is proven of them does not hold. Costs a
-/// Cholesky factor: asked of problems made by hand and of files, not by validate().
+/// InputError if the energy of some displacement of the nodes is negative, which no body's is.
+/// With such a stiffness a problem has several solutions, and the theorems do not hold. Costs a
+/// Cholesky factor: checked for problems made by hand and for files, not by validate().
 void require_semidefinite(const ReducedProblem &problem);
 
 /// One chain of all nodes, in their order, for problems made by hand.
 std::vector<ContactChain> one_chain(Eigen::Index nodes);
 
 /// Rigid motions that are slips alone (c·n × k, their openings are zero), as orthonormal
-/// columns. rigid_openings() has those that are openings alone (n × k). They are all that A and
-/// C do not resist, because K is semidefinite.
+/// columns. They are all that A and C do not resist, because K is semidefinite.
 Eigen::MatrixXd rigid_slips(const ReducedProblem &problem);
-/// Those that are openings alone, n × k, see rigid_slips().
+/// Rigid motions that are openings alone, n × k. With rigid_slips() they are all motions that A
+/// and C do not resist, because K is semidefinite.
 Eigen::MatrixXd rigid_openings(const ReducedProblem &problem);
 
 /// Coulomb's law with the same friction coefficient at every node.
 void set_friction(ReducedProblem &problem, double coefficient);
 
-/** Another law of friction, of these nodes (none given: of all): points (pressure, shear
-    strength) of tractions, for slip forward and backward, from which those of nodal forces
-    follow by the nodes' weights. A single point (1, f) is Coulomb's law. InputError without
-    weights, for a node that does not exist, or if the law is none: its pressures do not grow
-    from above zero, a strength falls or is negative, or with two tangents, where slip has no
-    sense, both differ. */
+/** Sets another law of friction for these nodes (none given: for all). Its points (pressure,
+    shear strength) are tractions, for slip forward and backward; the nodes' weights turn them
+    into nodal forces. A single point (1, f) is Coulomb's law. InputError without weights, for a
+    node that does not exist, or if the law is not valid: its pressures do not grow from above
+    zero, a strength falls or is negative, or the two directions differ although a node has two
+    tangents, where slip has no forward and backward. */
 void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
                       const std::vector<Eigen::Index> &nodes = {});
 /// The same law whichever way the nodes slip.
@@ -201,8 +206,8 @@ void set_friction_law(ReducedProblem &problem, const Eigen::MatrixX2d &points,
 /// InputError "WHO …" for a problem with laws of friction other than Coulomb's.
 void require_coulomb(const ReducedProblem &problem, const char *who);
 
-/// Holds the given rows of A (see ReducedProblem::held), of a node on a plane of symmetry for
-/// instance. InputError if a row does not exist.
+/// Holds the given rows of A (see ReducedProblem::held), for instance those of a node on a
+/// plane of symmetry. InputError if a row does not exist.
 void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows);
 
 /** The equivalent problem without a gap (thesis 3.6.1): u* = u + {0; g}. The forces that close

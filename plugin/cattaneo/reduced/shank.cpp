@@ -58,7 +58,7 @@ void Reduction::add_shank(const std::string &pattern, double stiffness)
 
 VectorXd Reduction::acting(const VectorXd &u, VectorXd multipliers) const
 {
-   // The last was added to a problem in which the others were springs already.
+   // The last bolt was added to a problem that already contained the others as springs.
    for (auto shank = shanks_.rbegin(); shank != shanks_.rend(); ++shank)
    {
       const Index known = shank->at_rest.size();

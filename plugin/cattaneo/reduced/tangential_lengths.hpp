@@ -6,8 +6,8 @@
 namespace cattaneo
 {
 
-/// Lengths of the tangential vectors of n nodes, n rows, from slips or tangential forces: c·n
-/// rows, component by component; zero without tangential components. Columns are states, or
+/// Lengths of the tangential vectors of n nodes (n rows) from slips or tangential forces (c·n
+/// rows, component by component). Zero without tangential components. Columns are states, or
 /// load vertices.
 template <class Entries>
 typename Entries::PlainObject tangential_lengths(const Eigen::MatrixBase<Entries> &x,

@@ -6,10 +6,10 @@
 namespace cattaneo
 {
 
-/** What a half-plane (or half-space) answers to tractions Σ t_j φ_j on its surface, in local
-    right-handed frames with the normal into the body: F t are the displacements' integrals with
-    the functions, ∫ φ_i u. All tangential unknowns first, then all normal ones; of torsion the
-    twist alone. Symmetric to the last bit. */
+/** Flexibility of a half-plane (or half-space) for tractions Σ t_j φ_j on its surface. F t are
+    the integrals of the displacements with the functions, ∫ φ_i u, in local right-handed frames
+    with the normal into the body. All tangential unknowns come first, then all normal ones;
+    torsion has the twist alone. Symmetric to the last bit. */
 using Flexibility = Eigen::MatrixXd;
 
 /** Plane strain or stress, x along the tangent (Timoshenko and Goodier, Theory of Elasticity,
@@ -31,12 +31,12 @@ Flexibility plane_flexibility(const SurfaceTrace &trace, const Material &materia
        u_z = (1-ν)/G ∫∫ J₀(kr) J₀(ks) dk p s ds + side (1-2ν)/2G ∫_{s>r} q ds
 
     relative to infinity, in frames whose tangent runs outwards (side -1) or inwards (side 1),
-    all integrated over the circumference. `rings`: of the trace. */
+    all integrated over the circumference. `rings` are the integrals of the trace. */
 Flexibility axisymmetric_flexibility(const SurfaceTrace &trace, const RingIntegrals &rings,
                                      const Material &material, double side);
 
 /// Torsion, unknowns ψ = u_θ/r: u_θ = 1/G ∫∫ J₁(kr) J₁(ks) dk t_θ s ds, t_θ = r Σ t_j φ_j, and
-/// the work of a force has the lever r. `rings`: of the trace.
+/// a force does work with the lever r. `rings` are the integrals of the trace.
 Flexibility torsion_flexibility(const RingIntegrals &rings, const Material &material);
 
 } // namespace cattaneo

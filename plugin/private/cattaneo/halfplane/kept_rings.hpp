@@ -8,8 +8,8 @@
 namespace cattaneo
 {
 
-/// Integrals about an axis of the surface that was asked for last: a body and its torsion ask
-/// one after the other. Several threads may.
+/// Keeps the integrals about an axis of the last surface, as a body and its torsion need the
+/// same ones one after the other. Safe with several threads.
 class KeptRings
 {
 public:

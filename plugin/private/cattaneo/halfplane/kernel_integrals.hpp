@@ -10,19 +10,22 @@ namespace cattaneo
 struct SurfaceKernel
 {
    double (*value)(double distance, double x, double s);
-   /// True if G is as singular at x = -s: of rings about an axis at x = 0, in x, s >= 0.
+   /// True if G has the same singularity at x = -s: for rings about an axis at x = 0, with x, s
+   /// >= 0.
    bool about_axis = false;
 };
 
-/** ∫∫ φ_i(x) G(x, s) φ_j(s) ds dx, x on one surface and s on another, or on the same, where G
-    must be symmetric (the result is so to the last bit). Each to round-off, about 1e-15 of the
-    largest of its neighbours, whatever the ratios of the elements' sizes.
+/** ∫∫ φ_i(x) G(x, s) φ_j(s) ds dx, with x on one surface and s on another. If both are the same
+    surface G must be symmetric, and the result is symmetric to the last bit. Each integral is
+    exact to round-off, about 1e-15 of the largest of its neighbours, whatever the ratios of the
+    elements' sizes.
 
-    Two panels (elements, and parts of them) that are at least half as far from each other as
-    they are long: Gauss's rule of as many points as their distance asks for. The same panel, or
-    two neighbours of similar lengths: in the distance of x from s, or from the common end,
-    where the singularity is that of a logarithm (Duffy), by logarithmic_rule(). Of all other
-    pairs the longer one is halved. */
+    A panel is an element or a part of one. For two panels that are at least half as far from
+    each other as they are long, Gauss's rule is used with as many points as their distance
+    needs. For a panel with itself, or two neighbours of similar lengths, the variable is the
+    distance of x from s, or from the common end (Duffy). The singularity there is that of a
+    logarithm, which logarithmic_rule() integrates. For all other pairs the longer panel is
+    halved. */
 Eigen::MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
                                  const SurfaceKernel &kernel);
 

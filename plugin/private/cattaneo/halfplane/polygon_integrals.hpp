@@ -11,7 +11,7 @@ struct HalfSpace;
 /// Corners of a plane polygon, counter-clockwise.
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// The polygon of each rectangle or triangle of a half-space that is valid.
+/// Polygons of the rectangles or triangles of a valid half-space.
 std::vector<Polygon> polygons_of(const HalfSpace &contact);
 
 double area(const Polygon &polygon);
@@ -19,7 +19,7 @@ double area(const Polygon &polygon);
 /// More digits, because the edges of a polygon cancel far away from it.
 using MoreDigits = long double;
 
-/// Integrals over a polygon of functions of the way d = (x, y) from its points to another
+/// Integrals over a polygon of functions of the vector d = (x, y) from its points to another
 /// point.
 struct KernelIntegrals
 {
@@ -30,7 +30,7 @@ struct KernelIntegrals
    MoreDigits y = 0;  ///< y/r²
 };
 
-/// At a point of the plane, inside or outside. In closed form.
+/// The integrals at a point of the plane, inside or outside, in closed form.
 KernelIntegrals integrals_at(const Eigen::Vector2d &point, const Polygon &polygon);
 
 /** Integrals over two polygons, of the way from points of the second one to points of the first

@@ -8,7 +8,7 @@
 namespace cattaneo
 {
 
-/// Along the surface, so that the half-plane is on the left.
+/// Unit vector along the surface, with the half-plane on the left.
 inline Eigen::Vector2d tangent(const HalfPlane &body)
 {
    return {body.normal[1], -body.normal[0]};

@@ -8,10 +8,10 @@
 namespace cattaneo
 {
 
-/** An element of order k of a straight surface: its functions φ are the polynomials of degree k
+/** An element of order k of a straight surface. Its functions φ are the polynomials of degree k
     in a parameter 0 <= t <= 1 that are 1 at one of the Gauss–Lobatto points and 0 at the
-    others, and so is its place x(t) made of the places of its nodes, which increase but may
-    stand anywhere between the ends. */
+    others. The same functions interpolate its place x(t) from those of its nodes, which
+    increase but may be anywhere between the ends. */
 struct SurfaceElement
 {
    std::vector<Eigen::Index> unknowns; ///< number of each node
@@ -21,7 +21,7 @@ struct SurfaceElement
    double size() const { return x[order()] - x[0]; }
 };
 
-/// Points of an element, with what its functions are there.
+/// Points of an element, and its functions there.
 struct SurfacePoints
 {
    Eigen::VectorXd x;   ///< places from the first node of the element on
@@ -39,7 +39,7 @@ public:
 
    Eigen::Index unknowns() const { return unknowns_; }
    const std::vector<SurfaceElement> &elements() const { return elements_; }
-   /// The same on the other side of the origin: x becomes -x.
+   /// The mirror image on the other side of the origin: x becomes -x.
    SurfaceTrace mirrored() const;
 
    /// The points of parameters t of an element.
@@ -58,8 +58,8 @@ private:
    std::vector<SurfaceElement> elements_;
 };
 
-/// Rows and columns of a mass matrix, as numbers of several components, which it does not
-/// couple: k times its size + i is row i of component k.
+/// The mass matrix of several components, which it does not couple, for the unknowns in `kept`:
+/// number k times its size + i is row i of component k.
 Eigen::SparseMatrix<double> kept_of(const Eigen::SparseMatrix<double> &mass,
                                     const std::vector<int> &kept);
 

@@ -6,14 +6,15 @@
 namespace cattaneo
 {
 
-/// What smooth curves that elements are chords of (LineElement::bend) make of gaps from node to
-/// node, n each. Less than 1e-9 of the distance of nodes is round-off, and zero.
+/// Changes of the gaps from node to node because elements are chords of smooth curves
+/// (LineElement::bend), n each. Less than 1e-9 of the distance of nodes is round-off, and set
+/// to zero.
 struct CurveGaps
 {
-   Eigen::VectorXd moved;  ///< gaps of the outlines over those of the nodes' places
+   Eigen::VectorXd moved;  ///< gaps of the outlines less those of the nodes' places
    Eigen::VectorXd left;   ///< what curves that lines are not taken for, as they are as meshed
                            ///< or kept polygons, would add
-   Eigen::VectorXd curved; ///< gaps of the outlines over those of chords
+   Eigen::VectorXd curved; ///< gaps of the outlines less those of the chords
 };
 
 /// Gaps of n nodes of a line in frames with these tangents (n × 2). `partner` has the node of

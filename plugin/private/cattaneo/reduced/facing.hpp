@@ -5,8 +5,8 @@
 namespace cattaneo
 {
 
-/// Element of a contact line as a curve 0 <= s <= 1, with the line's own tangents interpolated
-/// between its nodes, so that they turn without a jump from one element to the next.
+/// Element of a contact line as a curve 0 <= s <= 1. Its tangents are those of the line at the
+/// nodes, interpolated between them, so that they do not jump from one element to the next.
 struct ElementCurve
 {
    const LineElement *element = nullptr;
@@ -18,16 +18,16 @@ struct ElementCurve
    Eigen::Vector2d derivative(double s) const;
    Eigen::Vector2d tangent(double s) const; ///< not of length 1
    double length() const;
-   /// An estimate of how far a smooth curve lies from the element at s, where no curve is known
-   /// that it is a chord of: one through the same nodes, with the tangents of the line at both
-   /// ends. 0 at corners.
+   /// Estimated distance of a smooth curve from the element at s, if the curve itself is not
+   /// known: it goes through the same nodes, with the tangents of the line at both ends. 0 at
+   /// corners.
    Eigen::Vector2d bulge(double s) const;
 };
 
 /// The box around a line, in a sentence.
 std::string extent(const ContactLine &line);
 
-/// All elements of a line. InputError if it has none, or of an order beyond 1 to 8.
+/// All elements of a line. InputError if it has none, or one of another order than 1 to 8.
 std::vector<ElementCurve> curves(const ContactLine &line, const std::string &what);
 
 /// The part from < s < to of an element of the first line that faces an element of the other.
@@ -37,9 +37,9 @@ struct FacingPart
    double from = 0, to = 1;
 };
 
-/** Two points face each other if the line between them is across the mean of both tangents,
-    (x₁ - x₂)·(t₁ - t₂) = 0, whichever line is called the first, and the tangents are
-    opposed. */
+/** Two points face each other if their tangents are opposed and the line between the points is
+    across the mean of both tangents, (x₁ - x₂)·(t₁ - t₂) = 0. It does not matter which line is
+    called the first. */
 struct FacingLines
 {
    std::vector<ElementCurve> first, other;
@@ -47,7 +47,7 @@ struct FacingLines
    /// faces at most one element, the nearest.
    std::vector<FacingPart> parts;
 
-   /// The parameter on the other line's element of what faces s.
+   /// Parameter, on the other line's element, of the point that faces s.
    double opposite(const FacingPart &part, double s) const;
 };
 

@@ -7,7 +7,7 @@
 namespace cattaneo
 {
 
-/// A side with the nodes of the condensed body that its own are.
+/// A side of an interface, and the numbers that its nodes have in the condensed body.
 struct Side
 {
    int body = -1;
@@ -15,7 +15,7 @@ struct Side
    std::vector<int> nodes;
 };
 
-/// An interface whose sides have met: where its rows and all that is known of them come from.
+/// An interface after its sides were matched; its rows and all facts about them come from here.
 struct MetInterface
 {
    const Interface *given = nullptr;
@@ -28,17 +28,17 @@ struct MetInterface
    Eigen::Index nodes() const { return static_cast<Eigen::Index>(mortar.nodes.size()); }
 };
 
-/// Contact nodes of all interfaces, which become `met`. If the side that should have the nodes
-/// of one cannot, and none is named, the other one has them.
+/// Finds the contact nodes of all interfaces, and fills `met`. If the side that should carry
+/// the nodes cannot, and none was named, the other side carries them.
 std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
                                 const std::vector<CondensedBody> &bodies,
                                 std::vector<MetInterface> &met);
 
 InterfaceReport report_of(const MetInterface &interface);
 
-/// What the problem knows of the nodes of an interface that is not tied, which begin at
-/// `first`: gaps, weights, places, dofs and chains. `matching`: nodes are also the other
-/// body's; `all` are all interfaces.
+/// Fills in the gaps, weights, places, dofs and chains of the nodes of an interface that is not
+/// tied, which begin at `first`. `matching`: each node is also one of the other body. `all` are
+/// all interfaces.
 void add_facts(ReducedProblem &problem, Eigen::Index first, bool matching,
                const MetInterface &interface, const std::vector<MetInterface> &all);
 
