@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// A node goes to the piece of its bound at its pressure, unless that is on the present piece
-/// but for `tiny`. True if it slips on another one then.
+/// Gives a node the piece of its bound at its pressure, unless the pressure is on the present
+/// piece to `tiny`. True if the node slips and its piece has changed.
 bool changes_piece(Increment &at, Index i, double tiny)
 {
    const FrictionBound &bound = at.system.bound[i];
@@ -26,7 +26,7 @@ bool changes_piece(Increment &at, Index i, double tiny)
    return slips(at.status[i]);
 }
 
-/// States and pieces, as numbers that are the same where these are.
+/// States and pieces as numbers, to compare sets of them.
 std::vector<double> states_and_pieces(const Increment &at)
 {
    std::vector<double> key;
@@ -62,8 +62,8 @@ Index ask_for_states(Increment &at)
 bool newton(Increment &at)
 {
    if (at.system.disc()) { return newton_in_the_disc(at); }
-   // Each step may cost a factor, of order n³: where a few nodes of many go on changing,
-   // Lemke's method takes them one by one at n² each.
+   // Each step may cost a factor, of order n³. If only a few of many nodes go on changing,
+   // Lemke's method, which changes them one by one at n² each, is cheaper.
    return newton_on_states([&] { return states_and_pieces(at); }, at.system.settings.max_newton,
                            at.system.n / 50, [&] { return solve_for_states(at); },
                            [&] { return ask_for_states(at); }) &&

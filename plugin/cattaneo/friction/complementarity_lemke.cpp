@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Without friction there is no stick: the states of such nodes in contact, after the
-/// displacements x. False if the equations are singular.
+/// Gives nodes in contact without friction, which cannot stick, a state of slip in the sense of
+/// the displacements x. False if the equations are singular.
 bool let_slip(StateEquations &equations, const VectorXd &x)
 {
    std::vector<NodeState> states = equations.states();
@@ -28,7 +28,7 @@ bool let_slip(StateEquations &equations, const VectorXd &x)
    return equations.set(states);
 }
 
-/// The way of solutions from a start of our choice to the problem's b, see solve_by_lemke().
+/// The path of solutions from a chosen start to the problem's b, see solve_by_lemke().
 class Lemke
 {
 public:
@@ -46,8 +46,8 @@ private:
       forward,  ///< q + f p + θ h >= 0, with forward slip
       backward, ///< f p - q + θ h >= 0, with backward slip
       way,      ///< ± x_t >= 0, with one of the two above
-      below,    ///< p >= where the piece of its bound begins, with the piece below
-      above     ///< p <= where it ends, with the piece above
+      below,    ///< p >= start of the piece of its bound; partner: the piece below
+      above     ///< p <= end of the piece; partner: the piece above
    };
    /// The line of a bound that bends, between two pressures.
    struct Piece
@@ -59,7 +59,7 @@ private:
 
    template <class Visitor>
    void for_each_inequality(Index i, Visitor visit) const;
-   /// The left-hand side; `one`: 1, or 0 for its rate with x, F and θ.
+   /// The left-hand side. `one` is 1, or 0 for its rate with x, F and θ.
    double value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, double theta,
                 double one = 1) const;
    bool bends(Index i) const { return !bounds_.empty() && bounds_[i].bends(); }
@@ -78,8 +78,8 @@ private:
    const bool tangential_;
    const std::vector<FrictionBound> &bounds_; // empty: those of the equations
    std::vector<Piece> pieces_;                // of these
-   /// Sense of slip: of nodes in contact that of their state; nodes in separation have one too
-   /// as long as θ h holds them, 0 if it does not let them move.
+   /// Sense of slip. For nodes in contact it is that of their state. Nodes in separation have
+   /// one too as long as θ h holds them; 0 means that they do not move.
    VectorXd sense_;
    VectorXd h_;
    VectorXd x_, F_, away_; // b + θ away, θ = 1 at the start
@@ -105,8 +105,8 @@ Lemke::Lemke(StateEquations &equations, const ComplementarityProblem &problem,
    possible_ = bounds_.empty() || equations.set(states);
 }
 
-/// Moves x and F of a node so that every inequality is met with something to spare, every
-/// equation exactly.
+/// Moves x and F of a node so that every inequality is met with a margin, and every equation
+/// exactly.
 void Lemke::set_out_from(Index i, const std::function<double()> &some)
 {
    const NodeState state = equations_.states()[i];
@@ -216,7 +216,7 @@ double Lemke::value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, do
    return 0;
 }
 
-/// The inequality that is strict while that of this kind is an equation.
+/// The partner: the inequality that is strict while this one is an equation.
 Lemke::Kind Lemke::partner(Kind kind, double sense)
 {
    switch (kind)
@@ -275,8 +275,8 @@ bool Lemke::find_direction()
    return true;
 }
 
-/// The part of the pieces that does not go with p, of the nodes that slip, with the sense of
-/// their slip.
+/// Intercepts of the pieces of nodes that slip (the part of the bound that does not grow with
+/// p), with the sense of their slip.
 VectorXd Lemke::intercepts() const
 {
    VectorXd constant = VectorXd::Zero(problem_.b.size());
@@ -301,8 +301,8 @@ bool Lemke::meets_all(const VectorXd &x, const VectorXd &F)
    return met;
 }
 
-/// To the first inequality that becomes an equation, or to θ = 0 if none does before. False if
-/// neither comes: a ray.
+/// Goes to the first inequality that becomes an equation, or to θ = 0 if that comes first.
+/// False if neither comes, which is a ray.
 bool Lemke::go(double direction, double &theta, Index &node, Kind &kind)
 {
    double step = direction < 0 ? theta : infinity;
@@ -345,7 +345,7 @@ bool Lemke::follow(ComplementarityReport &report)
       ++report.pivots;
       const Kind to = partner(kind, sense_[node]);
       if (!exchange(node, kind) || !find_direction()) { return false; }
-      // 3. The way goes on into the inside of the partner's inequality, or turns back to do so.
+      // 3. The path goes on into the inside of the partner's inequality, or turns back for it.
       direction = value(node, to, dx_, dF_, 1, 0) > 0 ? 1 : -1;
    }
    // 4. The equations of the final states leave no drift; nothing holds nodes in separation

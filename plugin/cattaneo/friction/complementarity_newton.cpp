@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// The state that a Newton step gives node i: what the present solution asks for.
+/// The state that a Newton step gives node i, according to the present solution.
 NodeState wanted(const StateEquations &equations, Choice choice, Index i, const VectorXd &x,
                  const VectorXd &F, const VectorXd &round_off)
 {
@@ -64,7 +64,7 @@ bool newton_on_states(const std::function<std::vector<double>()> &choices, int m
                       const std::function<Index()> &ask)
 {
    std::set<std::vector<double>> tried;
-   // Few nodes of many that go on changing would do so up to the last step allowed.
+   // If a few of many nodes go on changing they would do so up to the last allowed step.
    constexpr int enough = 8;
    Index fewest = std::numeric_limits<Index>::max();
    int patience = enough;

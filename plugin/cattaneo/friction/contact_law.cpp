@@ -22,7 +22,7 @@ double dot(const NodeVector &a, const NodeVector &b)
    return sum;
 }
 
-/// A⁻¹ b by cofactors: a mirrored A and b give the mirrored answer to the last bit.
+/// A⁻¹ b by cofactors, so that a mirrored A and b give the mirrored answer to the last bit.
 NodeVector solve(const NodeMatrix &A, const NodeVector &b)
 {
    if (b.size() < 2) { return b.size() == 0 ? b : NodeVector(b / A(0, 0)); }
@@ -37,8 +37,8 @@ double bound_against(const ContactNode &node, const NodeVector &way)
    return node.bound.at(node.p, way.size() == 2 ? 0.0 : way[0] > 0 ? 1.0 : -1.0);
 }
 
-/// The slip equation of the disc over t = s/(s + k) in 0…1, k of the size of A: finite at both
-/// ends and linear where A is a multiple of I.
+/// The slip equation of the disc in the variable t = s/(s + k), 0 <= t <= 1, with k as large as
+/// A. It is finite at both ends, and linear if A is a multiple of I.
 struct SlipEquation
 {
    const LoneNode &node;
@@ -271,8 +271,8 @@ NodeMove solve_node(const LoneNode &node)
          return move;
       }
       const SlipEquation equation{node};
-      // The straight piece that a bent law has elsewhere may lie below zero here: it holds
-      // nothing, and the node goes to where another piece is asked.
+      // A straight piece of a bent law may be below zero at this pressure, as it belongs to
+      // other pressures. It then holds nothing, and the node moves on to another piece.
       const double t = equation(0) > 0 ? 0.0 : find_root(equation, 0, 1);
       move.state = NodeState::slip;
       move.slip = -(1 - t) * equation.y(t);
@@ -365,7 +365,7 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
          if (slip_error.size()) { known_to = std::max(known_to, slip_error[row]); }
          note(check.tangential, std::abs(forces[row] - state.q[row]), most);
       }
-      // An open node bears nothing, and no law but that holds for its slip.
+      // An open node bears nothing, and no other law holds for its slip.
       if (!closed(state.status[i])) { node.slip.setZero(); }
       check.tangential = std::max(check.tangential, slip_violation(node));
       judge(slip_violation(node, std::max(known_to, c == 2 ? slip_round_off(size) : 0.0)),

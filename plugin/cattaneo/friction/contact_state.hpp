@@ -50,13 +50,13 @@ struct ContactState
    Eigen::VectorXd w; ///< relative normal displacement
    Eigen::VectorXd q; ///< tangential nodal forces
    Eigen::VectorXd p; ///< normal nodal forces, compression positive
-   /// Slip v at which each node last stuck, opened or turned round (with two components: by
-   /// more than a right angle in one increment): v - slip_origin is the way it has slipped
-   /// since, and vanishes at an advancing slip front. Size c·n.
+   /// Slip v at which each node last stuck, opened or reversed (with two components: turned by
+   /// more than a right angle in one increment). v - slip_origin is the distance that it has
+   /// slipped since, which is zero at an advancing slip front. Size c·n.
    Eigen::VectorXd slip_origin;
    std::vector<NodeState> status; ///< of each node, at the end of the last increment
    Eigen::VectorXd multipliers;   ///< of the load patterns
-   /// Names of these patterns; none: those of the problem that the state is used with.
+   /// Names of these patterns; empty: those of the problem with which the state is used.
    std::vector<std::string> loads;
    double time = 0.0;        ///< of the load history
    double step = 0.0;        ///< next trial increment of time; 0: not chosen yet
@@ -64,8 +64,8 @@ struct ContactState
    double dissipation = 0.0; ///< frictional energy lost so far
    /// Slip at the end of the last three cycles (the latest last), see steady_period().
    std::vector<Eigen::VectorXd> cycle_slip;
-   /// What the cycle under way came to so far, so that a march that is taken up within a cycle
-   /// has it whole; none between cycles.
+   /// The record of the present cycle so far, so that a march that is resumed within a cycle
+   /// knows all of it. Empty between cycles.
    std::optional<CycleRecord> cycle;
 
    /// {v; w}.
@@ -73,30 +73,30 @@ struct ContactState
    /// {q; p}.
    Eigen::VectorXd forces() const;
 
-   /// After how many cycles, 1 or 2, the last of cycle_slip came again, to this share of it;
-   /// 0: none is known.
+   /// The number of cycles, 1 or 2, after which the last of cycle_slip repeats to this share of
+   /// it; 0: no period is known.
    int steady_period(double tolerance) const;
 
-   /// Before any load: no slip, and all nodes without a gap in stick.
+   /// The state before any load: no slip, and all nodes without a gap stick.
    static ContactState virgin(const ReducedProblem &problem);
 
-   /// Virgin but for a given slip (an initial dislocation), v of size c·n. InputError if it has
-   /// another size, or moves a row that the problem holds.
+   /// The virgin state with a given slip v (an initial dislocation), size c·n. InputError if it
+   /// has another size, or moves a row that the problem holds.
    static ContactState with_slip(const ReducedProblem &problem, const Eigen::VectorXd &v);
 
    /// InputError if sizes do not fit the problem, a value is not finite, or v moves a row that
    /// the problem holds by more than 1e-9 of the largest slip (round-off).
    void validate(const ReducedProblem &problem) const;
-   /// The same, and InputError if its forces are not those of its displacements and loads: of
-   /// another problem with as many nodes they are not, whatever the gap. A state before any
-   /// load has none, and is of any.
+   /// The same, and InputError if its forces are not those of its displacements and loads. This
+   /// finds a state of another problem with as many nodes, whatever the gap. A state before any
+   /// load fits every such problem.
    void require_of(const ReducedProblem &problem) const;
    /// InputError if a value is not finite.
    void require_finite() const;
 };
 
-/// Writes a state as JSON; every double is restored to the last bit. InputError if a value is
-/// not finite or the file cannot be written.
+/// Writes a state as JSON, from which every double is restored to the last bit. InputError if a
+/// value is not finite or the file cannot be written.
 void save(const ContactState &state, const std::string &file);
 /// Reads what save() wrote. InputError if the file is missing or is not a contact state.
 ContactState load_contact_state(const std::string &file);

@@ -68,7 +68,7 @@ Eigen::VectorXd json_vector(const nlohmann::json &j)
 
 nlohmann::json to_json(const ContactState &state)
 {
-   state.require_finite(); // else it would be written as null
+   state.require_finite(); // otherwise it would be written as null
    nlohmann::json j = state;
    if (!state.loads.empty()) { j["loads"] = state.loads; }
    if (state.cycle) { j["cycle"] = *state.cycle; }

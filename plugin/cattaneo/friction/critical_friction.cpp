@@ -18,10 +18,10 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Do forces inside the cones of friction f balance each other? In the direction of each edge
-/// alike, so that zero is in the convex hull of the edges or is not. A node whose pressure no
-/// rigid motion feels has it balanced by supports, and then shear as well, of whatever
-/// friction: that is no lock, elasticity decides what such a node holds.
+/// Can forces inside the cones of friction f balance each other? All edges count alike, so the
+/// question is whether zero is in the convex hull of the edges. If no rigid motion feels the
+/// pressure of a node, supports balance it, and then also its shear, whatever the friction.
+/// That is no lock: elasticity decides which forces such a node holds.
 bool locks(const ReducedProblem &problem, double f)
 {
    const MatrixXd &Z = problem.rigid_motions;
@@ -42,9 +42,10 @@ bool locks(const ReducedProblem &problem, double f)
    return used > 0 && fit_nonnegative(G, target).residual.norm() < 1e-9;
 }
 
-/// Cones grow with friction: bisection. Where pressures balance each other without any (a pin
-/// amid its hole, a plate between two), friction is not what does, and no pressures stay
-/// without a load by their balance alone: on nodes that stay closed they do no work.
+/// Cones grow with friction, so bisection finds the critical value. If pressures balance each
+/// other without friction (a pin in its hole, a plate between two others), friction is not the
+/// cause. Balance alone then keeps no pressures without a load, as they do no work on nodes
+/// that stay closed.
 double locking_friction(const ReducedProblem &problem)
 {
    double low = 1e-6, high = 1e6;
@@ -63,7 +64,7 @@ double locking_friction(const ReducedProblem &problem)
 double uniqueness_bound(const ReducedProblem &problem)
 {
    if (!problem.coupled) { return infinity; }
-   // Nothing resists a rigid motion: C is singular, or what C leaves of A.
+   // Nothing resists a rigid motion: C is singular, or the Schur complement of C in K is.
    if (problem.rigid_motions.cols() > 0) { return 0; }
    const Index n = problem.nodes(), m = problem.slips();
    const VectorXd s = problem.C().diagonal().cwiseSqrt().cwiseInverse(),

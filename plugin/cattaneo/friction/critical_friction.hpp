@@ -10,8 +10,8 @@ namespace cattaneo
 struct CriticalFriction
 {
    /// Least A_ii/|B_ii| of any node (two components: least mᵀA m/|bᵀm| over all directions m,
-   /// with the node's blocks of A and B), and the node: above it the rate problem of that node
-   /// alone has no unique answer, or none. Infinite without coupling.
+   /// with the node's blocks of A and B), and the node that has it. With more friction the rate
+   /// problem of that node alone has several answers, or none. Infinite without coupling.
    double node = 0;
    Eigen::Index weakest_node = 0; ///< at which `node` is decided
 
@@ -49,12 +49,12 @@ struct CriticalFriction
    double unique_below = 0;
 };
 
-/// Validates the problem. Cost: with a coupled problem that has no rigid
-/// motions, some ten Cholesky factors of half its size.
+/// Validates the problem. A coupled problem without rigid motions costs about ten Cholesky
+/// factors of half its size.
 CriticalFriction critical_friction(const ReducedProblem &problem);
 
-/// Can the contact lock itself with the friction it has, the largest everywhere? This tells of
-/// the problem, not of a state: nothing has to have locked.
+/// Can the contact lock itself with the largest friction coefficient of its nodes at all of
+/// them? This is a property of the problem. In a given state nothing needs to be locked.
 bool can_lock(const ReducedProblem &problem);
 
 } // namespace cattaneo

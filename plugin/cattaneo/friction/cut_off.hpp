@@ -7,17 +7,18 @@
 namespace cattaneo
 {
 
-/// Compressed contact that reaches an end of its line, or the rim of its surface, although
-/// nothing of the bodies ends there.
+/// A compressed contact that reaches an end of its line, or the rim of its surface, although
+/// neither body ends there.
 struct CutOffContact
 {
    std::string interface;  ///< name of the line's
    Eigen::Index chain = 0; ///< in the problem's list; -1: the rim of a surface
-   Eigen::Index node = 0;  ///< the last of the chain at that end; of a rim the most compressed
-   bool at_first = false;  ///< it is the first node of the chain, else the last
-   double x = 0;           ///< of the node, 0 if the problem has no positions
-   double y = 0;           ///< likewise
-   double time = 0;        ///< of the state
+   Eigen::Index node =
+      0; ///< the outermost node of the chain at that end; on a rim the most compressed one
+   bool at_first = false; ///< it is the first node of the chain, else the last
+   double x = 0;          ///< of the node, 0 if the problem has no positions
+   double y = 0;          ///< likewise
+   double time = 0;       ///< of the state
 
    /// At the same end, or at a rim too?
    bool same_place(const CutOffContact &other) const

@@ -16,16 +16,16 @@ double work(const LoadPattern &pattern, const ContactState &state)
 namespace
 {
 
-/// One node over an increment, from which it follows where in it the node begins to slip.
+/// One node over an increment. It tells when within the increment the node begins to slip.
 struct NodeWay
 {
    NodeWay(const ReducedProblem &problem, const ContactState &before, const ContactState &after,
            Index node);
 
-   NodeVector q0, q1, slip, own; ///< own: tangential stiffness of the node
+   NodeVector q0, q1, slip, own; ///< the node's own tangential stiffness
    double p0, p1;
    FrictionBound bound;
-   double sense; ///< of the slip in the plane
+   double sense; ///< sign of the slip in the plane
    /// The change of the force as if the node stuck to the end, which is linear.
    NodeVector turning;
    /// (|force|² less the square of the bound) over the share s of the increment: c + b s + a
@@ -147,8 +147,8 @@ double elastic_energy(const ReducedProblem &problem, const ContactState &state)
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
       const Control control = problem.patterns[k].control;
-      // Forces store energy in the clamped bodies, apart from that of u; prescribed
-      // displacements also work with u.
+      // Load patterns of forces store energy in the clamped bodies, besides that of u.
+      // Prescribed displacements also do work with u.
       if (control == Control::displacement)
       {
          energy += state.multipliers[k] * work(problem.patterns[k], state);

@@ -57,7 +57,7 @@ void ExactPath::find_choices(const ContactState &state)
    }
 }
 
-/// Sets the piece of a node's bound at a pressure. False if it is that already.
+/// Sets the piece of a node's bound at a pressure. False if the node has it already.
 bool ExactPath::set_piece(Index node, double pressure)
 {
    const FrictionBound piece = bounds_.given[node].straight(pressure);
@@ -73,8 +73,8 @@ bool ExactPath::set_piece(Index node, double pressure)
    return true;
 }
 
-/// The pieces of bounds that bend, at the present pressures; at a bend the one above it. True
-/// if they are others than before.
+/// Sets the pieces of bounds that bend, at the present pressures; at a bend the piece above it.
+/// True if a piece has changed.
 bool ExactPath::find_pieces(const ContactState &state)
 {
    const Index n = problem_.nodes();
@@ -114,8 +114,8 @@ bool ExactPath::turn_bends()
    return turned;
 }
 
-/// The part of the bounds that does not go with p, of the nodes that slip, with the sense of
-/// their slip.
+/// Intercepts of the bounds of nodes that slip (the part that does not grow with p), with the
+/// sense of their slip.
 VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
 {
    const Index n = problem_.nodes();
@@ -128,9 +128,9 @@ VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
    return constant;
 }
 
-/// A body that nothing but its balance keeps from turning about the node where it touches: one
-/// more node is said to touch, and shows by what it bears whether the loads turn the body.
-/// False if that is not so.
+/// Handles a body that touches at one node, about which only its balance keeps it from turning.
+/// One more node is set to touch; its force shows whether the loads turn the body. False if
+/// there is no such body.
 bool ExactPath::place_pivot(std::vector<NodeState> states)
 {
    const Index n = problem_.nodes();
@@ -152,13 +152,13 @@ bool ExactPath::place_pivot(std::vector<NodeState> states)
    return equations_.set(states);
 }
 
-/// Rates with the node let go that held a pivot, which moves the least that it can, by the
-/// length of the contact. False if it is not balanced.
+/// Rates without the node that held a pivot. The motion about the pivot is the least possible
+/// one, measured with the length of the contact. False if the body is not balanced.
 bool ExactPath::release_pivot()
 {
    const Index n = problem_.nodes();
    rates_.choice[pivot_.node] = Choice::open;
-   // The open nodes share what it bears, which balances the loads then.
+   // The open nodes share its force, which then balances the loads.
    VectorXd share = VectorXd::Zero(2 * n);
    for (Index i = 0; i < n; ++i)
    {
@@ -200,7 +200,7 @@ bool ExactPath::release_pivot()
    return true;
 }
 
-/// Gives the equations the present states, or, where these do not hold the bodies, others that
+/// Gives the equations the present states. If these do not hold the bodies, finds others that
 /// do. False if there are none.
 bool ExactPath::set_states(const ContactState &state)
 {
@@ -214,9 +214,9 @@ bool ExactPath::set_states(const ContactState &state)
    return equations_.set(states) || place_pivot(std::move(states));
 }
 
-/// Rates with which all nodes meet the laws: by Newton's steps from the present states, or from
-/// rates that are known there; then by Lemke's method from several starts; at last with a
-/// pivot. False if there are none.
+/// Finds rates with which all nodes obey the laws: by Newton's steps from the present states or
+/// from known rates, then by Lemke's method from several starts, at last with a pivot. False if
+/// there are none.
 bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
 {
    std::vector<NodeState> states = equations_.states();
@@ -236,7 +236,7 @@ bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
    }
    if (!found.solved && pivot_.node < 0)
    {
-      // Nodes that touch may bear nothing beside one about which a body is balanced.
+      // Nodes that touch may bear nothing if the body is balanced about another node.
       for (std::size_t i = 0; i < states.size(); ++i)
       {
          if (rates_.choice[i] == Choice::any) { states[i] = NodeState::separation; }
@@ -254,7 +254,8 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
 {
    // 1. The pieces of bounds that bend.
    const bool pieces_changed = find_pieces(state);
-   // 2. Rates that were found before hold as long as pieces, states and way are the same.
+   // 2. Rates that were found before hold as long as pieces, states and loads' path are the
+   // same.
    std::optional<ComplementarityReport> known;
    if (!pieces_changed && bounds_.bends.empty() && known_.to.size() == way.multipliers.size() &&
        known_.to == way.multipliers && known_.from == state.multipliers &&
@@ -266,7 +267,7 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
    }
    known_.to.resize(0);
    last_.ended = false;
-   // 3. Each node at a bend goes to one side of it, which few turns find if there is one.
+   // 3. Each node at a bend goes to one side of it. A few rounds find the side if there is one.
    const std::size_t most_turns = 2 * bounds_.bends.size() + 1;
    for (std::size_t turns = 0; turns < most_turns; ++turns)
    {
@@ -295,8 +296,9 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
    return false;
 }
 
-/// What a node has left of its state, in forces: of its gap if it is open, else of its friction
-/// in a sense of slip, or for none of its pressure. rate(): how fast that changes.
+/// Distance of a node from a boundary of its state, as a force: from its gap if it is open,
+/// else from its friction in a sense of slip, or for sense 0 from its pressure. rate() tells
+/// how fast it changes.
 double ExactPath::left(Index i, double sense) const
 {
    const Index m = problem_.nodes() + i;
@@ -311,8 +313,8 @@ double ExactPath::rate(Index i, double sense) const
    return equations_.bound()[i].slope(F_[m], sense) * F_rate_[m] + sense * F_rate_[i];
 }
 
-/// The boundaries that nodes may come to, as arguments of left(). Nodes that are on one have
-/// rates that lead away from it.
+/// The boundaries that nodes may reach, as arguments of left(). Nodes on a boundary have rates
+/// that lead away from it.
 template <class Visitor>
 void ExactPath::for_each_boundary(Visitor visit) const
 {
@@ -340,8 +342,8 @@ void ExactPath::for_each_boundary(Visitor visit) const
    }
 }
 
-/// Share of the rest of the way until a node reaches a boundary of its state, or that of the
-/// stop, if none does before.
+/// Share of the rest of the path until a node reaches a boundary of its state, or until the
+/// stop if that comes first.
 double ExactPath::share_to_event(double stop)
 {
    double share = stop;
@@ -349,8 +351,8 @@ double ExactPath::share_to_event(double stop)
    for_each_boundary(
       [&](Index i, double sense)
       {
-         // What is met at the very stop, to round-off, is no event before it: a node that comes
-         // back to its friction limit where the load turns has not slipped.
+         // A boundary that is reached exactly at the stop, to round-off, is no event before it:
+         // a node that comes back to its friction limit when the load turns has not slipped.
          const double value = left(i, sense), change = rate(i, sense);
          if (value + stop * change >= -noise_[i]) { return; }
          const double to = std::max(value, 0.0) / -change;
@@ -380,7 +382,7 @@ double ExactPath::share_to_event(double stop)
    return share;
 }
 
-/// Share by which the way was too long, if a boundary was passed by more than round-off.
+/// Share by which the step was too long, if a boundary was passed by more than round-off.
 double ExactPath::share_past_event() const
 {
    double back = 0;
@@ -396,7 +398,7 @@ double ExactPath::share_past_event() const
 namespace
 {
 
-/// Does a correction of a step turn the slip of a node against its state?
+/// Would a correction of a step reverse the slip of a node, against its state?
 bool turns(const VectorXd &step, const VectorXd &correction,
            const std::vector<NodeState> &states)
 {
@@ -433,8 +435,8 @@ bool ExactPath::starts_from(const ContactState &state) const
    return starts;
 }
 
-/// The loads' way, the present displacements and forces, and what is round-off of them. Returns
-/// the largest force so far.
+/// Sets the path of the loads, the present displacements and forces, and their round-off.
+/// Returns the largest force so far.
 double ExactPath::set_out(const ContactState &state, const PathWay &way)
 {
    const Index n = problem_.nodes();
@@ -442,7 +444,7 @@ double ExactPath::set_out(const ContactState &state, const PathWay &way)
    const VectorXd f_end = problem_.clamped_forces(way.multipliers);
    u_ = state.displacements();
    F_ = state.forces();
-   // The present forces count: those that they grow to later say nothing about gaps of now.
+   // The present forces count: larger forces later tell nothing about present gaps.
    const double present =
       std::max({state.peak_force, f.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff()});
    const VectorXd round_off = equations_.round_off(f, u_);
@@ -452,21 +454,21 @@ double ExactPath::set_out(const ContactState &state, const PathWay &way)
    return present;
 }
 
-/// A share of the way on, to these loads. Returns the part of it that was gone back, since an
-/// event came before.
+/// Goes on by a share of the path, to these loads. Returns the part of it that was taken back
+/// because an event came earlier.
 double ExactPath::go(double share, const std::vector<NodeState> &states, const VectorXd &loads)
 {
    const Index n = problem_.nodes();
    const VectorXd step = share * u_rate_;
    u_ += step;
-   // A node closed where its gap was round-off; what that is goes into the forces.
+   // A node closes when its gap is round-off; the remaining gap goes into the forces.
    for (Index i = 0; i < n; ++i)
    {
       if (closed(states[i])) { u_[n + i] = -problem_.gap[i]; }
    }
    F_ += share * F_rate_;
-   // Round-off gathers over events, and where displacements have become small that of large
-   // ones stays: the states' own equations remove it.
+   // Round-off accumulates over events, and stays after displacements have become small.
+   // Solving the equations of the states again removes it.
    const VectorXd clamped = problem_.clamped_forces(loads);
    const VectorXd forces = clamped + equations_.forces(u_);
    const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
@@ -474,8 +476,8 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
    const VectorXd constant = intercepts(states);
    VectorXd correction, corrected;
    last_.slip_error = VectorXd::Zero(n);
-   // A step may be so short that what is removed would turn its slip, which is an error of
-   // displacements that are as right without it.
+   // A step may be so short that the correction would reverse its slip. The displacements are
+   // as good without the correction then.
    if ((share < 1 && !drifted) || !equations_.solve(forces + constant, correction, corrected) ||
        (!drifted && turns(step, correction, states)))
    {
@@ -485,14 +487,14 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
    F_ = corrected - constant;
    // The state before had this error already, which is no slip.
    last_.slip_error = correction.head(n).cwiseAbs();
-   // What hardly resists a turn turns by more than that: the event comes before it.
+   // A body that hardly resists a rotation turns by more than that, so the event comes earlier.
    const double back = std::min(share, share_past_event());
    u_ -= back * u_rate_;
    F_ -= back * F_rate_;
    return back;
 }
 
-/// The present displacements and forces, as a state with these loads; `present`: the largest
+/// The present displacements and forces as a state with these loads. `present` is the largest
 /// force so far.
 void ExactPath::write(ContactState &state, std::vector<NodeState> states, double present) const
 {
@@ -516,7 +518,7 @@ void ExactPath::write(ContactState &state, std::vector<NodeState> states, double
 bool ExactPath::advance(ContactState &state, const PathWay &way,
                         std::vector<StateChange> &changes)
 {
-   // 1. What each node may choose, and the rates of the states that are chosen.
+   // 1. The states that each node may choose, and the rates of the chosen ones.
    const double present = set_out(state, way),
                 peak = std::max(present,
                                 problem_.clamped_forces(way.multipliers).cwiseAbs().maxCoeff());
@@ -532,8 +534,8 @@ bool ExactPath::advance(ContactState &state, const PathWay &way,
       return false;
    }
 
-   // 2. As far as the next event or the stop. Where the states hardly hold the bodies,
-   // round-off hides what is not balanced.
+   // 2. Go to the next event or the stop. If the states hardly hold the bodies, round-off hides
+   // an imbalance.
    const double rest = way.time - state.time,
                 stop = way.stop == way.time ? 1 : (way.stop - state.time) / rest;
    double share = share_to_event(stop);
@@ -553,7 +555,7 @@ bool ExactPath::advance(ContactState &state, const PathWay &way,
    };
    share -= go(share, states, loads());
 
-   // 3. The rates hold for the rest of the way, which is shorter now.
+   // 3. The rates hold for the rest of the path, which is shorter now.
    u_rate_ *= 1 - share;
    F_rate_ *= 1 - share;
    state.time = share == stop ? way.stop : state.time + share * rest;

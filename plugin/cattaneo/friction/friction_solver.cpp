@@ -36,7 +36,7 @@ struct Method
 {
    const char *name;
    Search (*find)(Increment &at);
-   bool thorough; ///< not worth its time where a brief answer is wanted
+   bool thorough; ///< left out if a quick answer is wanted
 };
 
 /// Weak springs: free bodies under loads that nearly balance each other, which tip or roll to
@@ -81,16 +81,17 @@ bool find_end(Increment &at, bool thorough = true)
    return false;
 }
 
-/// Displacements so large that round-off hides the forces may be a body that slides away, with
-/// an imbalance that no residual shows, or one that nothing holds and that could as well stay.
+/// Displacements may be so large that round-off hides the forces. Then either a body slides
+/// away, with an imbalance that no residual shows, or nothing holds it and it could as well
+/// stay.
 bool runs_away(Increment &at)
 {
    return at.report.round_off > may_hide_sliding &&
           (moves_away(at) || at.springs->bear_nothing);
 }
 
-/// Free bodies whose springs bear nothing, as under loads that balance each other: they stay
-/// where these have them.
+/// Free bodies whose springs bear nothing, as under loads that balance each other, stay where
+/// the springs hold them.
 bool rests(Increment &at)
 {
    if (moves_away(at) || !at.springs->bear_nothing) { return false; }
@@ -100,8 +101,8 @@ bool rests(Increment &at)
    return ends_with_least_motion(at);
 }
 
-/// A frictionless contact with its slip among the unknowns, as a pad that rocks on a line that
-/// is nearly straight needs it.
+/// A frictionless contact with its slip among the unknowns, which a pad that rocks on a nearly
+/// straight line needs.
 IncrementReport solve_with_slip(FrictionSystem &system, ContactState &state,
                                 const VectorXd &multipliers)
 {
@@ -130,7 +131,7 @@ void explain_failure(Increment &at)
    {
       report.status =
          mechanism.slides ? FrictionStatus::gross_sliding : FrictionStatus::no_solution;
-      // The second tangent runs about an axis, but on a surface in space.
+      // The second tangent runs about the axis, except on a surface in space.
       message << (mechanism.spins && s.problem.position.cols() < 3
                      ? "the torque exceeds what friction can hold: a body spins about its axis"
                   : mechanism.slides ? "the loads exceed what friction can hold: a body slides"
@@ -179,20 +180,20 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
    Increment at(*this, state, multipliers);
    IncrementReport &report = at.report;
    const Mechanism &mechanism = at.cause.mechanism;
-   // 1. Loads that no admissible contact forces balance: there is nothing to search for.
+   // 1. If no admissible contact forces balance the loads, there is nothing to search for.
    bool solved = !at.finds_mechanism();
    // 2. The methods, one after the other.
    solved = solved && find_end(at);
-   // 3. A body that slides away may look like an answer, also to the judge.
+   // 3. A body that slides away may look like an answer, even to ends_here().
    solved = solved && !runs_away(at);
-   // 4. Free bodies that nothing moves. (Where a law bends, pressures that were found may prove
+   // 4. Free bodies that nothing moves. (With a law that bends, the pressures found may prove
    // that there is no equilibrium.)
    if (!solved && !mechanism.exists)
    {
       solved = !(bends() && at.finds_mechanism()) && rests(at);
    }
-   // 5. A free body without friction on a line that is nearly straight: that slip was
-   // eliminated may have cost the digits. All is solved with it once more.
+   // 5. With a free body without friction on a nearly straight line, the elimination of slip
+   // may have cost the digits. The increment is solved once more with slip as an unknown.
    const bool eliminated = without_slip && without_slip->tangential;
    if (!solved && !mechanism.exists && eliminated)
    {

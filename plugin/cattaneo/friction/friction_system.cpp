@@ -80,8 +80,7 @@ FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
    if (frictionless())
    {
       counters.dense_factorisations = without_slip->tangential ? 1 : 0;
-      // What little is left of K where a body is free to slide away up a slope is round-off of
-      // C.
+      // If a body is free to slide away up a slope, the small rest of K is round-off of C.
       product = std::make_shared<StiffnessProduct>(
          StiffnessProduct{SymmetricProduct(K), RoundOff(problem.C())});
       whole_product = std::make_shared<StiffnessProduct>(
@@ -144,8 +143,8 @@ Index FrictionSystem::above_critical(const VectorXd &p,
 bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
                                 IncrementReport &report, const VectorXd &slip_error) const
 {
-   // With the tangential displacements also where they were eliminated: what slips without
-   // friction may go far, and bears on the pressure.
+   // Includes tangential displacements that were eliminated: a body that slips without friction
+   // may move far, which affects the pressure.
    const VectorXd all = next.displacements();
    const VectorXd clamped = problem.clamped_forces(next.multipliers);
    const VectorXd forces = clamped + whole_product->times(all);

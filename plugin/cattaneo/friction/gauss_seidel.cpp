@@ -24,7 +24,7 @@ void sweep(Increment &at)
    ++s.counters.sweeps;
    for (Index i = 0; i < s.n; ++i)
    {
-      // A body that is free to slide away up a slope meets no resistance.
+      // No resistance: the body is free to slide away up a slope.
       if (s.frictionless() && !(s.lone.kn[i] > 0)) { continue; }
       LoneNode node = s.frictionless() ? LoneNode{} : lone_node(s.problem, i);
       if (!s.frictionless()) { node.bound = s.bound[i].straight(std::max(at.F[s.m(i)], 0.0)); }
@@ -34,7 +34,8 @@ void sweep(Increment &at)
       node.q0 = at.along(at.F, i) - node.A * slip - gap * node.b;
       node.p0 = at.F[s.m(i)] - node.b.dot(slip) - node.c * gap;
       const NodeMove found = solve_node(node);
-      // Above the critical friction there may be no consistent state: it is left as it is.
+      // Above the critical friction there may be no consistent state; the node is left as it
+      // is.
       if (!found.found) { continue; }
       for (Index k = 0; k < s.c; ++k)
       {
@@ -51,7 +52,7 @@ Search gauss_seidel(Increment &at)
    for (long k = 0; k < at.system.settings.max_sweeps; ++k)
    {
       sweep(at);
-      // The forces are updated by columns; now and then they are formed anew, against drift.
+      // The forces are updated by columns, and computed anew now and then against drift.
       if (k % 64 == 63) { at.F = at.f + at.system.product->times(at.u); }
       if (!at.u.allFinite()) { break; }
       if (at.residuals() && at.ends_here()) { return Search::found; }

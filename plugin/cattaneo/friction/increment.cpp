@@ -32,7 +32,8 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
    }
    if (!s.frictionless() && state.peak_force > 0)
    {
-      // The state of an increment before: where sweeps begin; what is accepted is formed anew.
+      // The state of the increment before, from which sweeps begin. An accepted state is
+      // computed anew.
       F = state.forces() - s.problem.clamped_forces(state.multipliers);
    }
    else { F = s.product->times(u); }
@@ -41,8 +42,8 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
    F += f;
    swept = {u, status};
    find_pieces();
-   // What comes out depends on the state and the loads, not on increments before: a march that
-   // is cut and resumed gives the same bits.
+   // The result depends on the state and the loads, not on earlier increments. A march that is
+   // interrupted and resumed gives the same bits.
    for (auto *equations : {&s.equations.coupled, &s.equations.normal, &s.equations.tangential})
    {
       if (*equations) { (*equations)->begin(); }
@@ -118,8 +119,7 @@ ContactState Increment::end() const
                                                       : NodeState::backward_slip;
       }
    }
-   // What a support holds does not move, also where all forces are round-off and any state is
-   // an answer.
+   // Held rows do not move, even if all forces are round-off and any state is an answer.
    for (const Index row : s.problem.held) { next.v[row] = next.q[row] = 0; }
    // Round-off must not look like traction or penetration.
    for (Index i = 0; i < s.n; ++i)
@@ -160,7 +160,7 @@ bool Increment::residuals()
       small = small && std::abs(R.normal) <= std::max(allowed, left[s.m(i)]);
       if (s.frictionless()) { continue; }
       const double limit = std::max(allowed, round_off_along(left, i));
-      // An open node bears nothing, not f times what is left of its pressure.
+      // An open node bears nothing, not even f times the round-off of its pressure.
       double size = magnitude(closed(status[i]) ? R.tangential : at.q);
       small = small && size <= limit;
       if (s.disc() && closed(status[i]))
@@ -184,7 +184,7 @@ bool Increment::ends_here()
 {
    next = end();
    const bool obeyed = system.obeys_laws(start.v, next, scale(), report);
-   // A solution that moves so far that its forces cannot be told from round-off.
+   // The solution moves so far that its forces cannot be told from round-off.
    if (report.round_off >= lost && report.round_off < 0.1)
    {
       cause.lost_in_round_off = report.round_off;
@@ -205,8 +205,8 @@ bool Increment::finds_mechanism()
    {
       return false;
    }
-   // No law holds more than the line of any of its pieces: those where the increment starts,
-   // which is often next to the last equilibrium, and those where it stands.
+   // No law allows more than the line of any of its pieces. Checked are the pieces at the start
+   // of the increment, which is often close to the last equilibrium, and the present ones.
    for (const VectorXd &p : {start.p, VectorXd(F.tail(system.n))})
    {
       mechanism = find_mechanism(system.problem, system.lines_at(p), clamped, negligible);

@@ -7,15 +7,16 @@
 namespace cattaneo
 {
 
-/// Load multipliers, given in the order of the patterns, by the names of these: the other way
-/// of ReducedProblem::multipliers().
+/// Load multipliers by the names of the patterns, from those in the order of the patterns: the
+/// inverse of ReducedProblem::multipliers().
 NamedLoads named(const ReducedProblem &problem, const Eigen::VectorXd &multipliers);
 
 /// One linear piece of a load history.
 struct LoadPiece
 {
-   int point = 0; ///< of the history, where it starts: the same in every repeated cycle
-   int cycle = 0; ///< that it belongs to: 0 for the opening part, then 1, 2, …
+   int point =
+      0; ///< number of the history's point where it starts, the same in every repeated cycle
+   int cycle = 0; ///< cycle that it belongs to: 0 for the opening part, then 1, 2, …
    bool begins_cycle = false; ///< it starts where the cycle does
    bool ends_cycle = false;   ///< it ends where the cycle does
    double start = 0;          ///< time, which goes on through repeated cycles
@@ -43,19 +44,18 @@ struct LoadHistory
 
    /// Points with times 0, 1, 2, …; each inner vector is one point's multipliers.
    static LoadHistory through(const std::vector<Eigen::VectorXd> &points);
-   /** Points with times 0, 1, 2, … by the names of loads, of which a point names those that it
+   /** Points with times 0, 1, 2, … by the names of loads. A point names the loads that it
        changes: through(problem, {{}, {{"P", 1}}, {{"Q", 0.2}}}). A load that a point does not
-       name keeps its value, from 0 at the first point.
-       @param cycle_start  the point from which on the rest repeats; -1: no cycle
-       @param cycles       how often it does
-       InputError as validate(), and for a name that is none of a pattern. */
+       name keeps its value. All loads begin at 0. @param cycle_start the point from which on
+       the rest repeats; -1: no cycle @param cycles how often it does InputError as validate(),
+       and for a name that is none of a pattern. */
    static LoadHistory through(const ReducedProblem &problem,
                               const std::vector<NamedLoads> &points, int cycle_start = -1,
                               int cycles = 1);
 
    /// Number of linear pieces, repeated cycles counted.
    int pieces() const;
-   /// Number k of them, from 0, in the order in which they are marched.
+   /// Piece k, counted from 0 in the order in which they are marched.
    LoadPiece piece(int k) const;
 
    /// InputError if sizes, order of times or the closing of the cycle are wrong.

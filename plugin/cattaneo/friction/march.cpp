@@ -25,8 +25,8 @@ void MarchSettings::validate() const
 namespace
 {
 
-/// A history goes on with the loads that the state has: where they jump, the way there is not
-/// known, and what friction keeps depends on it.
+/// A history must go on with the loads of the state. If they jump, the path in between is not
+/// known, and the friction forces depend on it.
 void check_loads(const FrictionSolver &solver, const LoadHistory &history,
                  const ContactState &state)
 {
@@ -41,7 +41,7 @@ void check_loads(const FrictionSolver &solver, const LoadHistory &history,
    const bool at_rest = state.multipliers.isZero(0);
    for (Eigen::Index l = 0; l < loads.size(); ++l)
    {
-      // The time of a state far into a history has few digits for its place in a piece.
+      // Late in a history the time of a state has few digits left for its place within a piece.
       const double most = history.multipliers.row(l).cwiseAbs().maxCoeff();
       require(std::abs(loads[l] - state.multipliers[l]) <= 1e-6 * most, "history: load '",
               solver.problem().patterns[l].name, "' is ", loads[l], " at ",
@@ -68,7 +68,7 @@ MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactSta
    if (asks_for_loss) { start = state; }
    MarchRun run(solver, history, state, settings, observer);
    MarchReport report = run.run();
-   // 3. How wrong its loss may be, by another march from the same state.
+   // 3. Estimate the error of its loss by another march from the same state.
    if (asks_for_loss)
    {
       if (report.taken_up_clearance > 0)

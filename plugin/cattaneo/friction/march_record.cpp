@@ -136,7 +136,7 @@ double MarchRecord::add_energies(const ContactState &next, const LoadPiece &piec
    losses_.most_work = std::max(losses_.most_work, std::abs(sums_.external_work));
    sums_.dissipation += dissipation;
    sums_.normal_work += normal_work;
-   // Work is a load times the difference of two places, which may lie far away.
+   // Work is a load times the difference of two displacements, which may both be large.
    sums_.moved += std::abs(work) + dissipation + std::abs(normal_work) +
                   next.multipliers.cwiseAbs().dot(at_end.cwiseAbs());
    conjugates_ = at_end;
@@ -178,8 +178,8 @@ void MarchRecord::accept(MarchStep &&step, const LoadPiece &piece)
       report.event_time = from.time;
       report.event_multipliers = from.multipliers;
    }
-   // 4. The end of a cycle, and of the row. What is observed is whole: a march that is taken up
-   // from it knows of this cycle.
+   // 4. The end of a cycle, and of the row. The observed state is complete: a march that is
+   // resumed from it knows this cycle.
    if (piece.ends_cycle && state_.time >= piece.end) { end_cycle(); }
    if (step.row) { end_row(); }
 }
@@ -250,12 +250,12 @@ void MarchRecord::close()
    report.time = state_.time;
    if (changed_ > 0) { report.advance_error = 4 * changed_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy_at_start_;
-   // Where the loads give back what they had put in, all three at the end are round-off of the
-   // work on the way; of a closed elastic cycle of the energy that it began with.
+   // If the loads get back all the work that they did, all three are at the end round-off of
+   // the work on the way. In a closed elastic cycle they are round-off of the initial energy.
    const double most = std::max({losses_.most_work, std::abs(stored), sums_.dissipation,
                                  1e-6 * std::abs(energy_at_start_)});
    const double left = sums_.external_work - stored - sums_.dissipation - sums_.normal_work;
-   // Sums of so many terms, each right to the solver's residual or to rounding.
+   // Sums of many terms, each exact to the solver's residual or to rounding.
    const double right_to = std::max(report.largest_residual, 1e-14),
                 known_to = right_to * (sums_.moved + std::abs(energy_at_start_));
    if (std::abs(left) > known_to) { report.energy_imbalance = left / most; }

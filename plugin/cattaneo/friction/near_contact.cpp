@@ -154,7 +154,7 @@ NearContact::NearContact(const ReducedProblem &whole, const SymmetricProduct &ti
       if (found != rows_.end()) { part.held.push_back(found - rows_.begin()); }
    }
    const ThinQR motions = thin_qr(whole.rigid_motions(rows_, Eigen::all));
-   constexpr double hardly = 1e-4; // of a motion whose largest entry may be elsewhere
+   constexpr double hardly = 1e-4; // the largest entry of the motion may be at another node
    require(motions.R.cols() == 0 || motions.R.diagonal().cwiseAbs().minCoeff() > hardly,
            "near contact: a rigid motion hardly moves it");
    part.rigid_motions = motions.Q;
@@ -246,7 +246,7 @@ ContactState NearContact::whole(const ContactState &before, const ContactState &
    placed(far_.rows()) = u;
    next.v = placed.head(whole_.slips());
    next.w = placed.tail(whole_.nodes());
-   // To the last bit, as where round-off must not look like slip.
+   // Exact to the last bit, where round-off must not look like slip.
    next.v(slips_) = part.v;
    next.w(nodes_) = part.w;
    next.q.setZero();

@@ -10,8 +10,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Forces that cannot be told from none: a hundred times the solver's tolerance, and the
-/// round-off of displacements that are large against what deforms.
+/// Force below which a node counts as unloaded: a hundred times the solver's tolerance, and the
+/// round-off of rigid displacements that are large compared with the deformation.
 double least_force(const ReducedProblem &problem, const ContactState &state)
 {
    double largest = 0;
@@ -44,11 +44,11 @@ std::vector<NodeState> settled_states(const ReducedProblem &problem, const Conta
    const VectorXd least = least_slip(problem, state);
    const double force = least_force(problem, state);
    const bool has_slip = problem.components() > 0, plane = problem.components() == 1;
-   // Without friction what the symmetry of a scene leaves at rest moves by what its integrals
-   // and places are wrong by.
+   // Without friction, a contact that symmetry keeps at rest still moves by the errors of
+   // integrals and coordinates.
    const double least_way = n > 0 ? 1e-8 * state.displacements().cwiseAbs().maxCoeff() : 0;
    const bool directed = plane && (way.array() > least_way).any();
-   std::vector<bool> held(n, false); // it has no law of friction
+   std::vector<bool> held(n, false); // no law of friction holds for it
    for (Index row : problem.held) { held[row % n] = true; }
    for (Index i = 0; i < n; ++i)
    {

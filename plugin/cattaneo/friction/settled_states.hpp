@@ -7,29 +7,30 @@
 namespace cattaneo
 {
 
-/** States of the nodes as mechanics decides them, whatever round-off made of ties.
+/** States of the nodes with ties decided by mechanics, not by round-off.
 
-    A solver's status is a tie where two states satisfy the laws at once: a node that touches
-    without force, and a closed node that lies on the friction limit but has not moved (at a
-    reload peak all nodes between the first and the steady border of stick do; without load all
-    nodes do). Everything that is read from states, counted or drawn goes through here:
-    - a node is in contact if it is pressed: p above 1e-10 of the largest nodal force so far
-      and above the round-off of its displacements. One that only touches carries nothing and
-      counts as separated; so does, without load, the whole contact;
-    - a node in contact slips if its status says so and it has moved since it last stuck, opened
-      or turned, |v - slip_origin|, by more than that force does to it alone; otherwise it
-      sticks;
-    - a node in contact without friction never sticks; where it has not moved it counts as
-      forward slip, and where none has moved by more than 1e-8 of the largest displacement as
-      slip in no direction (NodeState::slip). */
+    A tie is a node for which two states satisfy the laws at once: one that touches without
+    force, or a closed one that is at the friction limit but has not moved. At a reload peak all
+    nodes between the first and the steady border of stick are ties, and without load all nodes
+    are. All that reads, counts or draws states uses this function:
+
+    - a node is in contact if it is pressed: p above 1e-10 of the largest nodal force so far and
+      above the round-off of its displacements. A node that only touches carries nothing and
+      counts as separated; without load the whole contact does;
+    - a node in contact slips if its status says so and |v - slip_origin|, its movement since it
+      last stuck, opened or reversed, is larger than that least force would cause if the node
+      moved alone; otherwise it sticks;
+    - a node in contact without friction never sticks. If it has not moved it counts as forward
+      slip; if no node has moved by more than 1e-8 of the largest displacement all of them count
+      as slip in no direction (NodeState::slip). */
 std::vector<NodeState> settled_states(const ReducedProblem &problem, const ContactState &state);
 
 /// Number of nodes that touch without force: neither pressed nor open, with the tolerances of
 /// settled_states(). They count as separated.
 Eigen::Index touching_nodes(const ReducedProblem &problem, const ContactState &state);
 
-/** Largest and smallest slip of each node over a stretch of a march: nodes that slip at all
-    within a cycle have a range, those whose state is a tie have none. */
+/** Largest and smallest slip of each node over a part of a march. Nodes that slip within a
+    cycle have a range, those whose state is a tie have none. */
 class SlipRange
 {
 public:
@@ -40,10 +41,10 @@ public:
    void start(const ContactState &state);
    /// One more state of the stretch; the first one begins it.
    void note(const ContactState &state);
-   /// Largest - smallest slip, size n; with two tangential components the diagonal of the box
-   /// that slip stayed in.
+   /// Largest minus smallest slip, size n. With two tangential components it is the diagonal of
+   /// the box that contains all slips.
    Eigen::VectorXd range() const;
-   /// True for the nodes that were in contact at every state: the others moved freely.
+   /// True for the nodes that were in contact in every state; the others moved freely at times.
    const std::vector<bool> &always_closed() const { return closed_; }
 
 private:
@@ -52,8 +53,8 @@ private:
    std::vector<bool> closed_;
 };
 
-/// What each node's slip must exceed to be told from round-off, size n: what the least force
-/// that counts (see settled_states) does to it alone.
+/// Slip of each node that can be told from round-off, size n: the displacement by the least
+/// force that counts (see settled_states), if this node moves alone.
 Eigen::VectorXd least_slip(const ReducedProblem &problem, const ContactState &state);
 
 } // namespace cattaneo

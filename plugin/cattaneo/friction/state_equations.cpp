@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Where the corner of the borders is nearer to singular, M₀ is factored anew.
+/// If the corner of the borders is closer to singular than this, M₀ is factored anew.
 constexpr double least_corner = 1e-9;
 
 } // namespace
@@ -123,7 +123,7 @@ void StateEquations::add_columns(const std::vector<Index> &rows)
    }
    lu_.solve(W_.middleCols(first, count));
    updates_ += count;
-   // D - Q M₀⁻¹ P of the rows that are there already.
+   // D - Q M₀⁻¹ P of the present rows.
    for (Index a = 0; a < first; ++a)
    {
       const Border &border = borders_[a];
@@ -140,7 +140,7 @@ void StateEquations::add_columns(const std::vector<Index> &rows)
    }
 }
 
-/// The equation of a border that is present: its row of Q, and of D - Q M₀⁻¹ P.
+/// The equation of a present border: its row of Q, and that of D - Q M₀⁻¹ P.
 void StateEquations::set_equation(Index a, const Equation &now)
 {
    const auto size = static_cast<Index>(borders_.size());
@@ -163,7 +163,7 @@ void StateEquations::set_equation(Index a, const Equation &now)
    }
 }
 
-/// The present states as borders of M₀. False if M₀ had better be factored anew.
+/// Writes the present states as borders of M₀. False if M₀ should rather be factored anew.
 bool StateEquations::border()
 {
    const auto m = static_cast<Index>(slots_.size());
@@ -277,7 +277,7 @@ VectorXd StateEquations::forces_again(const VectorXd &x)
    {
       if (x[row] != base_[row]) { changed.push_back(row); }
    }
-   // A column is read from memory in whole, half of K for all of them.
+   // Reads whole columns from memory; for all of them that is half of K.
    const bool few = 4 * static_cast<Index>(changed.size()) <= base_.size();
    if (base_.size() == 0 || !few)
    {
@@ -320,8 +320,8 @@ void StateEquations::step(const VectorXd &F, VectorXd &x) const
    for (Index k = 0; k < m; ++k) { x[slots_[k].row] -= y[k]; }
 }
 
-/// The transpose of step(), statement by statement from its end: adds to y, of the equations,
-/// what the unknowns' g amount to.
+/// The transpose of step(), statement by statement from its end: adds the contribution of the
+/// unknowns' g to y, the values of the equations.
 void StateEquations::step_transposed(const VectorXd &g, VectorXd &y) const
 {
    const auto m = static_cast<Index>(slots_.size()), count = static_cast<Index>(active_.size());

@@ -19,7 +19,8 @@ bool cancels(const VectorXd &K, const VectorXd &from, const VectorXd &u)
 namespace
 {
 
-/// Normal displacements to solve from: a gap that is large against the load would cost digits.
+/// Normal displacements from which to solve. A gap that is large for the load would cost digits
+/// otherwise.
 VectorXd closed_gaps(const Increment &at)
 {
    VectorXd w = -at.system.problem.gap;

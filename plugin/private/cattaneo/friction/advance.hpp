@@ -6,10 +6,10 @@ namespace cattaneo
 {
 
 // How contact advances in an increment. Friction acts on a node from the beginning of the
-// increment in which it closes, not from where it does.
+// increment in which it closes, not from the moment of closing.
 
-/// True if a node closes and bears. One that only comes to touch, as where a body rocks until
-/// it does, has had no friction on its way: the forces are those of an open node.
+/// True if a node closes and bears a force. A node that only comes to touch, as when a body
+/// rocks onto it, had no friction on the way: its forces are those of an open node.
 bool closes(const ReducedProblem &problem, const ContactState &before,
             const ContactState &after);
 
@@ -17,8 +17,8 @@ bool closes(const ReducedProblem &problem, const ContactState &before,
 bool advances_too_far(const ReducedProblem &problem, const ContactState &before,
                       const ContactState &after);
 
-/// Largest change of a node's friction force in an increment in which a node closes, else 0: it
-/// may be wrong, and stays.
+/// Largest change of a node's friction force if a node closes in the increment, else 0. That
+/// change may be wrong, and the error stays.
 double changed_while_closing(const ReducedProblem &problem, const ContactState &before,
                              const ContactState &after);
 

@@ -6,8 +6,8 @@
 namespace cattaneo
 {
 
-/// What a node may choose between: everything, or, where only the rates are sought, what the
-/// present gap and forces leave it.
+/// States that a node may choose: all, or for rates those that the present gap and forces
+/// allow.
 enum class Choice : signed char
 {
    any,      ///< x_n >= 0, p >= 0, one of them zero; in contact |q| <= f p and Coulomb's law
@@ -18,15 +18,15 @@ enum class Choice : signed char
    sliding   ///< x_n = 0, q = 0: contact without friction; the state says the sense only
 };
 
-/** Finds node states whose equations (see StateEquations) have a solution that meets the laws
-    of contact and friction: the frictional contact problem with the displacements x counted
-    from stick and the forces F = b + K x. It is that of an increment, and that of the rates. */
+/** Finds node states whose equations (see StateEquations) have a solution that obeys the laws
+    of contact and friction. The displacements x are counted from stick, and the forces are F =
+    b + K x. Both increments and rates are problems of this kind. */
 struct ComplementarityProblem
 {
    Eigen::VectorXd b;
    std::vector<Choice> choice;
-   /// Bounds of the nodes, which may bend with the pressure and have intercepts; the equations
-   /// have slopes alone. Empty: those of the equations.
+   /// Bounds of the nodes, which may bend with the pressure and have intercepts, while the
+   /// equations have slopes only. Empty: the bounds of the equations.
    std::vector<FrictionBound> bounds;
 };
 
@@ -52,8 +52,8 @@ bool newton_on_states(const std::function<std::vector<double>()> &choices, int m
                       Eigen::Index few, const std::function<bool()> &solve,
                       const std::function<Eigen::Index()> &ask);
 
-/// Semismooth Newton steps from the states of `equations`, which hold the solution's if solved.
-/// `start` may bring x and F of these states, to save their solution.
+/// Semismooth Newton steps from the states of `equations`, which are those of the solution
+/// afterwards. `start` may contain x and F of the first states, to save solving for them.
 ComplementarityReport solve_by_newton(StateEquations &equations,
                                       const ComplementarityProblem &problem, int max_steps,
                                       ComplementarityReport start = {});

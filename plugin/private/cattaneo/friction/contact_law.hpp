@@ -20,14 +20,14 @@ using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2
 /// its entries.)
 double magnitude(const NodeVector &x);
 
-/** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p, or
-    that of a FrictionLaw. The solvers, their checks, losses and zones() ask here; the cones
-    of shakedown ask for its pieces, derivatives and wear know Coulomb's law alone, and refuse
-    another one (require_coulomb()).
+/** Bound of the tangential force of a node at its normal force p: Coulomb's f p, or that of a
+    FrictionLaw. The solvers, their checks, losses and zones() use it, and the cones of
+    shakedown use its pieces. Derivatives and wear know Coulomb's law alone, and refuse another
+    one (require_coulomb()).
 
-    Everyone asks for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
-    direction of the disc), and linearises it by its slope there, so that a bound that differs
-    from sense to sense or bends with p is a matter of this class alone. */
+    All callers ask for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
+    direction of the disc), and linearise it by its slope there. So only this class knows that a
+    bound may differ from sense to sense or bend with p. */
 class FrictionBound
 {
 public:
@@ -42,31 +42,31 @@ public:
    bool none() const { return !law_ && lines_[0].slope == 0 && lines_[1].slope == 0; }
    /// Has pieces, so that no one line is it.
    bool bends() const { return law_ != nullptr; }
-   /// The lines of the pieces at p; at a bend those below it.
+   /// The lines of the pieces at p; at a bend the pieces below it.
    FrictionBound straight(double p) const;
-   /// The same without what does not go with p: the bound of the rates of a node at p.
+   /// The same without intercepts: the bound of the rates of a node at p.
    FrictionBound of_rates(double p) const;
-   /// The pressure at which the bound bends next, from p down (`way` < 0) or up, in whatever
-   /// sense of slip; it may be p itself. Infinite: it does not.
+   /// The pressure at which the bound bends next, from p downwards (`way` < 0) or upwards, in
+   /// either sense of slip. It may be p itself. Infinite if there is no bend.
    double bend(double p, double way) const;
    /// Nothing in tension.
    double at(double p, double sense = 0) const { return line(std::max(p, 0.0), sense); }
-   /// Without the end at p = 0: the straight piece of it goes on into tension.
+   /// The bound without its end at p = 0: its straight piece goes on into tension.
    double line(double p, double sense = 0) const
    {
       return intercept(p, sense) + slope(p, sense) * p;
    }
-   /// The part of that line that does not go with p: none in Coulomb's law.
+   /// The intercept of that line, which does not grow with p: zero in Coulomb's law.
    double intercept(double p = 0, double sense = 0) const { return piece(p, sense).intercept; }
    double slope(double p = 0, double sense = 0) const { return piece(p, sense).slope; }
    /// The larger slope of both senses there.
    double steepness(double p) const { return std::max(slope(p, 1), slope(p, -1)); }
-   /// Derivative of the bound itself, of which nothing is left in tension.
+   /// Derivative of the bound itself, which is zero in tension.
    double derivative(double p, double sense = 0) const
    {
       return at(p, sense) > 0 ? slope(p, sense) : 0.0;
    }
-   /// What is left of it before the node slips in a sense (plane), negative beyond.
+   /// Force that is left before the node slips in a sense (plane), negative beyond.
    double reserve(double q, double p, double sense) const { return line(p, sense) + sense * q; }
 
 private:
@@ -88,10 +88,10 @@ private:
 FrictionBound friction_bound(const ReducedProblem &problem, Eigen::Index i);
 /// The bounds of all nodes.
 std::vector<FrictionBound> friction_bounds(const ReducedProblem &problem);
-/// Those of Coulomb's law; with ReducedProblem::friction no law of a node is above its line.
+/// Bounds of Coulomb's law. With ReducedProblem::friction they are upper limits of any law.
 std::vector<FrictionBound> friction_bounds(const Eigen::VectorXd &coefficients);
 
-/// One node at the end of an increment. Lengths count as forces by its own stiffness.
+/// One node at the end of an increment. Its own stiffness turns lengths into forces.
 struct ContactNode
 {
    NodeVector slip; ///< since the start of the increment
@@ -100,32 +100,33 @@ struct ContactNode
    double kt = 0, kn = 0; ///< own stiffness
    FrictionBound bound;
 
-   /// The force that the bound would have to hold were the slip taken back.
+   /// The trial force: the friction force that would be needed if the node had not slipped.
    NodeVector trial() const { return q - kt * slip; }
 };
 
-/// What friction makes of the node's trial force: stick where the bound holds it with a
-/// margin, a force, else slip against it.
+/// The state that friction gives the node by its trial force: stick if the bound exceeds it by
+/// the margin (a force), else slip against it.
 NodeState friction_state(const ContactNode &node, double margin = 0);
 
-/** The state that displacements and forces ask for, which solve the equations of the state that
-    the node has `now`. Violations up to `tiny` (normal) and `tiny_along` (tangential) change
-    nothing, lest states flicker where two of them meet. */
+/** The state that follows from displacements and forces that solve the equations of the node's
+    state `now`. Violations up to `tiny` (normal) and `tiny_along` (tangential) change nothing,
+    so that states do not flicker where two of them meet. */
 NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, double tiny_along);
 
-/// The state that a solution is given: its own, or, where the node breaks that by more than
-/// `allowed` (a force), the one it breaks least. Where friction has nothing to say, the laws
-/// hold whichever way a node is called to slip.
+/// The state of a node in a solution: its own, or the state that it violates least if it
+/// violates its own by more than `allowed` (a force). Without friction the laws hold for either
+/// sense of slip.
 NodeState fitting_state(const ContactNode &node, NodeState now, double allowed);
 
-/// The state in which the natural map takes the node, whatever it was.
+/// The state that the natural map gives the node, whatever it was.
 NodeState natural_state(const ContactNode &node);
 
-/// The laws as one equation, the natural map: zero in a solution, else forces.
+/// The laws as one equation, the natural map: zero in a solution, otherwise forces.
 struct NodeResidual
 {
    double normal; ///< the smaller of k gap and p
-   /// q less the trial force brought into the bound. [Alart 1991], with own stiffness.
+   /// q minus the trial force limited by the bound. [Alart 1991], with the node's own
+   /// stiffness.
    NodeVector tangential;
 };
 
@@ -196,7 +197,7 @@ NodeMove solve_node(const LoneNode &node);
     answers under a pressure that is large beside them. */
 double critical_friction(const LoneNode &node);
 
-/// How far a state is from an answer of an increment, in forces.
+/// Distance of a state from a solution of an increment, in forces.
 struct LawCheck
 {
    double normal = 0, tangential = 0; ///< largest violations
@@ -223,10 +224,10 @@ LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
                     const ContactState &state, const Eigen::VectorXd &forces, double allowed,
                     const Eigen::VectorXd &round_off, const Eigen::VectorXd &slip_error = {});
 
-/// By how much a closed node breaks the law of friction: a force beyond the bound; or, of a
-/// slip x that does not oppose it, the smaller of the force that is missing, |q + bound x/|x||,
-/// and of that of the slip itself. `uncertain`: how well x is known, which excuses that much of
-/// an angle, and any of a shorter slip.
+/// By how much a closed node violates the law of friction. It is the force beyond the bound. If
+/// a slip x does not oppose the force, it is the smaller of the missing force, |q + bound
+/// x/|x||, and the force that the slip itself amounts to. `uncertain` is the error of x: it
+/// excuses an angle of that size, and any angle of a shorter slip.
 double slip_violation(const ContactNode &node, double uncertain = 0);
 /// That of displacements of such size.
 double slip_round_off(double size);

@@ -8,10 +8,10 @@ namespace cattaneo
 /// Work of the forces of a load pattern in the displacements of a state.
 double work(const LoadPattern &pattern, const ContactState &state);
 
-/** How each node (size n) rubs over an increment: the way |Δv| that it slips, and its nodal
-    pressures at the beginning and the end of that way. A node that stuck, or whose slip turns
-    round, sticks first: the way begins at the pressure at which friction is exhausted, if the
-    forces of the node that does not slip yet change linearly. */
+/** How each node (size n) rubs over an increment: the distance |Δv| that it slips, and its
+    nodal pressures at the beginning and the end of that distance. A node that stuck before, or
+    whose slip reverses, sticks first. Its slip begins at the pressure at which friction is
+    exhausted, if its forces change linearly until then. */
 struct Rubbing
 {
    Eigen::VectorXd way, p_from, p_to;
@@ -28,26 +28,25 @@ Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactStat
 /// Work of friction over an increment, -½(q₀ + q₁)·Δv: the forces change linearly.
 double friction_work(const ContactState &before, const ContactState &after);
 
-/// Derivatives of a number that depends on the rubbing() of one node, as its way begins
-/// where friction is exhausted: by its forces before (0) and after (1), its slip Δv, its
+/// Derivatives of a number that depends on the rubbing() of one node, whose path begins when
+/// friction is exhausted. They are by its forces before (0) and after (1), its slip Δv, its
 /// friction and its own tangential stiffness.
 struct RubbingDerivative
 {
    NodeVector q0, q1, slip, stiffness;
    double p0 = 0, p1 = 0, friction = 0;
 };
-/// Derivatives of a number that has some by way, p_from and p_to of the node.
+/// Derivatives of a number, from its derivatives by way, p_from and p_to of the node.
 RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const ContactState &before,
                                      const ContactState &after, Eigen::Index node,
                                      double by_way, double by_from, double by_to);
-/// Derivatives of the frictional_loss() of the node, whose rubbing() over the increment is
-/// given.
+/// Derivatives of the frictional_loss() of a node with the given rubbing() over the increment.
 RubbingDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
                                   const ContactState &after, const Rubbing &rub,
                                   Eigen::Index node);
 
-/// Elastic energy stored by the contact displacements and loads of a state (both bodies); what
-/// the loads store in the clamped bodies only if it is known (H).
+/// Elastic energy of both bodies by the contact displacements and loads of a state. The part
+/// that the loads store in the clamped bodies is included only if H is known.
 double elastic_energy(const ReducedProblem &problem, const ContactState &state);
 
 } // namespace cattaneo

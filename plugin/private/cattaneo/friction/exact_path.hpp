@@ -14,8 +14,9 @@ namespace cattaneo
 void list_changes(const ContactState &from, const std::vector<NodeState> &to,
                   std::vector<StateChange> &changes);
 
-/// The way of an exact path: the loads change linearly from those of the state to `multipliers`
-/// at `time`, and are followed as far as a stop on the way, at the latest their end.
+/// A straight piece of an exact path. The loads change linearly from those of the state to
+/// `multipliers` at `time`. They are followed as far as a stop on the way, at the latest to
+/// their end.
 struct PathWay
 {
    double time;                        ///< of its end
@@ -36,12 +37,12 @@ struct PathWay
 class ExactPath
 {
 public:
-   /// A problem with friction, which must outlive the path. InputError unless it has one
-   /// tangential component a node: the disc of two has no straight sides.
+   /// The problem must have friction and outlive the path. InputError unless it has one
+   /// tangential component a node, as the friction disc of two has no straight sides.
    explicit ExactPath(const ReducedProblem &problem);
 
-   /// Is the state an equilibrium that meets the laws (to round-off)? A path can only start
-   /// from one; an initial slip or interference is none.
+   /// Is the state an equilibrium that obeys the laws (to round-off)? A path can only start
+   /// from such a state, and not from an initial slip or interference.
    bool starts_from(const ContactState &state) const;
 
    /** Advances `state` as far as the next event or the stop, and appends the changes of state
@@ -49,14 +50,15 @@ public:
        False, with the state unchanged, if it does not go on; failure() says why. */
    bool advance(ContactState &state, const PathWay &way, std::vector<StateChange> &changes);
 
-   /// Node that met the boundary of its state where the last advance() ended; -1: none did.
+   /// Node that reached the boundary of its state at the end of the last advance(); -1: none
+   /// did.
    Eigen::Index event() const { return last_.event; }
-   /// How well the slips of the last advance() are known, one for each node: round-off of the
-   /// state before, times what the conditioning of the equations makes of it.
+   /// Error of each node's slip in the last advance(): the round-off of the state before,
+   /// amplified by the conditioning of the equations.
    const Eigen::VectorXd &slip_error() const { return last_.slip_error; }
    /// Why the last advance() failed, in a sentence (see docs/increments.md).
    const std::string &failure() const { return last_.failure; }
-   /// The method that found the rates of the last advance(), as a march records it.
+   /// The method that found the rates of the last advance(), for the record of a march.
    const char *found_by() const { return last_.found_by; }
    /// Did the last advance() fail because no rates meet the laws, although the equations of the
    /// states could be solved? Then equilibria may end here. A march takes this for their end,
@@ -110,9 +112,9 @@ private:
       Eigen::VectorXd from, to;
    } known_;
    ComplementarityProblem rates_;
-   Eigen::VectorXd noise_; // of each node: forces below this are round-off
-   /// A motion that nothing resists and nothing drives, and the node that is said to touch
-   /// while rates are found; -1: there is none.
+   Eigen::VectorXd noise_; // one for each node: forces below it are round-off
+   /// A motion that nothing resists and nothing drives, and the node that is set to touch while
+   /// rates are found; -1: none.
    struct
    {
       Eigen::VectorXd motion;

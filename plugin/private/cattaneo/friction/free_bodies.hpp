@@ -20,32 +20,32 @@ struct Mechanism
    bool spins = false;  ///< slides in the circumferential direction somewhere
 };
 
-/// Edges of the friction cones as the motions Z = {v; w} (a column each) feel them: two columns
-/// for each tangential component of each node, the pressure 1 with the forces of the bound.
-/// Without tangential rows in Z the pressure alone, twice.
+/// Work of the edges of the friction cones in the motions Z = {v; w} (a column each). Each
+/// tangential component of each node has two columns: the pressure 1 with the force of the
+/// bound in either sense. Without tangential rows in Z both are the pressure alone.
 Eigen::MatrixXd cone_edges(const Eigen::MatrixXd &Z, const std::vector<FrictionBound> &bound);
 
 /** Can contact forces inside the friction cones (p >= 0, |q| <= f p) balance the given clamped
     forces {q; p} along the rigid motions? By Farkas' lemma either they can, or there is a
-    mechanism: the residual of a non-negative least-squares problem in the edges of the cones.
-    A round cone (two tangential components) has edges in all directions; those that the
-    residual points at are added until none points at it any more. That they can is necessary
-    for equilibrium; that they cannot is the cause when there is none.
+    mechanism: the residual of a non-negative least-squares problem in the edges of the cones. A
+    round cone (two tangential components) has edges in all directions; those that the residual
+    points at are added until none points at it any more. Equilibrium is only possible if they
+    can; if they cannot, that is the reason why there is none.
 
-    `negligible`: a resultant whose largest share of a node is no larger is none (loads that
+    A resultant whose largest share of a node is at most `negligible` counts as none (loads that
     balance each other to round-off). */
 Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::VectorXd &clamped_forces,
                          double negligible = 0);
-/// The same of nodes that hold no more than these lines, which may have intercepts.
+/// The same for nodes whose bounds are these lines, which may have intercepts.
 Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<FrictionBound> &bound,
                          const Eigen::VectorXd &clamped_forces, double negligible);
 
-/** Do the clamped forces drive a steady rotation about the axis? It meets f p at every node,
-    with the pressure of a contact without friction: all of friction is circumferential then,
-    and moves no node in its plane. Torques between this and the greatest that a contact can
-    carry at rest have both a steady rotation and an equilibrium, so that this is the cause
-    only where no equilibrium was found. False if not just one rigid motion is tangential, with
-    two components, or if the torque is `negligible` as above. */
+/** Do the clamped forces drive a steady rotation about the axis? In a steady rotation every
+    node has the friction f p, with the pressure of a contact without friction: all friction is
+    then circumferential, and moves no node within its plane. Torques between this one and the
+    greatest that a contact can carry at rest allow both a steady rotation and an equilibrium.
+    So a rotation is the cause only if no equilibrium was found. False unless exactly one rigid
+    motion is tangential, with two components, or if the torque is `negligible` as above. */
 Mechanism find_spinning(const ReducedProblem &problem,
                         const Eigen::VectorXd &frictionless_pressure,
                         const Eigen::VectorXd &clamped_forces, double negligible = 0);
@@ -54,10 +54,10 @@ Mechanism find_spinning(const ReducedProblem &problem,
 Eigen::MatrixXd free_motions(const ReducedProblem &problem,
                              const std::vector<NodeState> &states);
 
-/** Where bodies that nothing holds and that touch nothing come to rest as soon as the given
-    clamped forces {q; p} begin to push them: the relative displacement {v; w}. As rigid bodies
-    and without friction, which there is none of before anything presses, they go on until their
-    contacts bear these forces; of several such places to the nearest one,
+/** The relative displacement {v; w} at which bodies that nothing holds and that touch nothing
+    come to rest when the given clamped forces {q; p} begin to push them. They move as rigid
+    bodies, and without friction, as nothing presses yet, until their contacts bear these
+    forces. Of several such places the nearest one is taken,
 
         min |c - t d|,  W c + g >= 0,
 

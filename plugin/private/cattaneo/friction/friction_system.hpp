@@ -17,34 +17,34 @@ constexpr double lost = 1e-6;
 // and above this it may hide what drives a body that slides.
 constexpr double may_hide_sliding = 1e-10;
 
-/// Lengths of the contact nodes: their weights, or ones where these are not known.
+/// Lengths of the contact nodes: their weights, or ones if these are not known.
 Eigen::VectorXd node_lengths(const ReducedProblem &problem);
 
 struct FrictionSystem;
 
-/// A contact without friction: nodes slip freely, and only their gaps are left to find.
+/// A contact without friction: nodes slip freely, and only their gaps are unknown.
 struct WithoutSlip
 {
    explicit WithoutSlip(const ReducedProblem &problem);
    ~WithoutSlip();
-   /// Forces of the gaps where nothing opens, under clamped forces {q; p}.
+   /// Forces on the gaps while none of them opens, under clamped forces {q; p}.
    Eigen::VectorXd normal_forces(const Eigen::VectorXd &clamped) const;
-   /// Where the nodes slip to from v with the normal displacements w; what nothing holds has
-   /// not moved on the whole, as the contact's length goes.
+   /// The slips that follow from v and the normal displacements w. Along motions that nothing
+   /// holds the mean slip does not change, weighted with the contact's length.
    Eigen::VectorXd slip(const Eigen::VectorXd &v, const Eigen::VectorXd &w,
                         const Eigen::VectorXd &clamped) const;
 
    const ReducedProblem &problem;
    Eigen::MatrixXd K; // of the gaps
-   // None where the problem has no tangential displacements; motions along the contact that
-   // nothing resists, and how much of each is in some displacements.
+   // Empty if the problem has no tangential displacements. Otherwise motions along the contact
+   // that nothing resists, and the amount of each in given displacements.
    std::unique_ptr<SemidefiniteSolver> tangential;
    Eigen::MatrixXd slides_freely, share_of_motion;
-   // The same contact with its slip among the unknowns, made when that is first needed.
+   // The same contact with its slip among the unknowns, made when first needed.
    std::unique_ptr<FrictionSystem> kept;
 };
 
-/// Products with a stiffness, and what arithmetic leaves of sums K u + f.
+/// Products with a stiffness, and the round-off of sums K u + f.
 struct StiffnessProduct
 {
    SymmetricProduct times;
@@ -100,14 +100,14 @@ struct FrictionSystem
    std::vector<FrictionBound> lines_at(const VectorXd &p) const;
    /// The equations of all states at once.
    StateEquations &coupled_equations();
-   /// Friction of node i; where its law bends the slope at a pressure.
+   /// Friction of node i; if its law bends, the slope at a pressure.
    double friction(Index i, double p) const;
-   /// The node whose friction at its pressure is the most above its critical value, closed if
-   /// states are given; -1: no node.
+   /// The node whose friction at its pressure exceeds its critical value the most; if states
+   /// are given it must be closed. -1: no node.
    Index above_critical(const VectorXd &p, const std::vector<NodeState> &states = {}) const;
-   /// The last word on a state as the end of an increment from slip v_old, in the equations as
-   /// they are given, and what is reported of it, over the force `scale`.
-   /// @param slip_error see check_laws()
+   /// Final decision whether a state is the end of an increment from slip v_old, in the
+   /// equations as they are given. Fills in the report, relative to the force `scale`. @param
+   /// slip_error see check_laws()
    bool obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
                    IncrementReport &report, const VectorXd &slip_error = {}) const;
    // See FrictionSolver.

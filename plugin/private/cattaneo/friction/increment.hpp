@@ -7,11 +7,11 @@
 namespace cattaneo
 {
 
-/// What weak springs on the rigid motions of free bodies came to.
+/// Result of weak springs on the rigid motions of free bodies.
 struct OnSprings
 {
-   /// The motion of a body that slides away, which no spring stops, or of one that spins, which
-   /// friction in the disc can hide from springs (find_spinning()).
+   /// The motion of a body that slides away, which no spring stops, or of a body that spins,
+   /// which springs may miss because of friction in the disc (find_spinning()).
    Mechanism away;
    std::optional<ContactState> state; ///< with the weakest spring that stopped the bodies
    bool bear_nothing = false;         ///< that spring bears nothing: the state is an answer
@@ -24,7 +24,7 @@ struct Cause
    double lost_in_round_off = 0; ///< round-off of a solution that moves too far; 0: none
 };
 
-/// One increment: where it starts, where it stands, and what was found out about it.
+/// One increment: its start, its present displacements and forces, and what was found about it.
 struct Increment
 {
    using Index = Eigen::Index;
@@ -47,11 +47,12 @@ struct Increment
    VectorXd f;    // forces with v = w = 0 at the new loads
    VectorXd u, F; // displacements {v; w} and forces {q; p} (frictionless: w, p)
    std::vector<NodeState> status;
-   std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
-   VectorXd piece; // plane, bounds that bend: a pressure on the piece that each node is on
+   std::vector<DiscSlip> direction; // disc: for slipping nodes, as last linearised
+   VectorXd piece; // plane, bounds that bend: a pressure on the present piece of each node
    double reference = 0; // largest force so far, the scale of residuals
-   // Where the last sweeps ended; without sweeps the start. Further sweeps set out from there,
-   // and the first try of damped Newton. All others depart from the start of the increment.
+   // End of the last sweeps; without sweeps the start. Further sweeps begin here, and so does
+   // the first attempt of damped Newton. All other attempts begin at the start of the
+   // increment.
    Place swept;
 
    IncrementReport report;
@@ -67,8 +68,7 @@ struct Increment
    ContactNode node(Index i) const;
    /// Round-off of each row of F, see RoundOff.
    VectorXd round_off() const { return system.product->arithmetic.rows(u.cwiseAbs(), f); }
-   /// What friction lets a node's rows leave of round-off: that of its own forces and of its
-   /// bound.
+   /// Round-off of a node's rows: that of its own forces and of its bound.
    double round_off_along(const VectorXd &rows, Index i) const;
 
    void move_to(const VectorXd &displacements, const std::vector<NodeState> &states);
@@ -78,15 +78,15 @@ struct Increment
    void go_back() { move_to(swept.u, swept.status); }
    /// The state at the end, with exact zeros where the node states say zero.
    ContactState end() const;
-   /// Gives the nodes of an accepted end states that fit how they slip and what they bear.
+   /// Gives the nodes of an accepted end the states that fit their slips and forces.
    void fit_states(ContactState &next) const;
-   /// Is the state where it stands the end of the increment? By the equations and the laws as
-   /// they are given (FrictionSystem::obeys_laws()). No state is accepted without this. One of
-   /// free bodies that passes may still be discarded, where round-off may hide that they move
+   /// Is the present state the end of the increment, by the equations and the laws as they are
+   /// given (FrictionSystem::obeys_laws())? No state is accepted without this check. With free
+   /// bodies a state that passes may still be discarded, as round-off may hide that they move
    /// away (FrictionSystem::solve(), lemke_from_afar(), damped_newton()).
    bool ends_here();
-   /// Fills the report with what the natural map leaves where it stands: a measure of the way
-   /// that is left. True if that may be small enough for ends_here(), which asks for more.
+   /// Fills the report with the residual of the natural map in the present state. True if that
+   /// may be small enough for ends_here(), which demands more.
    bool residuals();
    /// True if no admissible contact forces can balance the loads: there is no equilibrium. It
    /// is Cause::mechanism then.

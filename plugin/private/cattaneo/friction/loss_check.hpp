@@ -5,8 +5,8 @@
 namespace cattaneo
 {
 
-/// How far the loss of a march from `start` may be from that of its path: `losses` and `report`
-/// are the march's.
+/// Estimated error of the loss of a march from `start`, compared with that of its exact path.
+/// `losses` and `report` are those of the march.
 LossError loss_error(FrictionSolver &solver, const LoadHistory &history,
                      const ContactState &start, const MarchSettings &settings,
                      const Losses &losses, const MarchReport &report);

@@ -5,13 +5,13 @@
 namespace cattaneo
 {
 
-/// A step of a march: an increment, or on an exact path the way to the next event or stop.
+/// A step of a march: an increment, or on an exact path a step to the next event or stop.
 struct MarchStep
 {
    ContactState state; ///< at its end
    IncrementReport increment;
    Eigen::Index event = -1; ///< IncrementRecord's
-   bool exact = false;      ///< by the exact path, or by one increment where that is exact
+   bool exact = false;      ///< by the exact path, or by one increment that is exact
    bool resumes = true;     ///< IncrementRecord's
    bool row = true; ///< an IncrementRecord ends here; an event between two stops has none
 
@@ -33,7 +33,7 @@ struct Losses
    bool inexact = false;       ///< there were increments that are not exact
 };
 
-/// What a march has come to: its state, and the report of the increments that led there.
+/// Present result of a march: its state, and the report of the increments that led there.
 class MarchRecord
 {
 public:
@@ -45,7 +45,7 @@ public:
 
    /// The state, in which nothing was accepted yet, is another one.
    void restart();
-   /// The state stands where a cycle begins, or, not `whole`, within it.
+   /// The state is at the beginning of a cycle, or, if not `whole`, within it.
    void begin_cycle(int number, bool whole);
    /// The end of a step of a piece becomes the state.
    void accept(MarchStep &&step, const LoadPiece &piece);

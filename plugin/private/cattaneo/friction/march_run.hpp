@@ -32,11 +32,11 @@ private:
 /// Increments of a piece of a march's history.
 int steps_of_piece(const MarchSettings &settings, const LoadPiece &piece);
 
-/// Is there a node whose bound of friction is no single line of the pressure?
+/// Does the friction bound of a node consist of more than one line?
 bool friction_bends(const ReducedProblem &problem);
 
-/// A state before any load: moves what is free and touches nothing to where the first loads
-/// that push it press it on. How far, at most; 0: nothing is moved.
+/// In a state before any load: moves free bodies that touch nothing to the place where the
+/// first loads that push them press them on. Returns the largest distance; 0: nothing is moved.
 double take_up_clearance(const ReducedProblem &problem, const LoadHistory &history,
                          ContactState &state);
 

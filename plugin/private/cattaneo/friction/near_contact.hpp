@@ -11,9 +11,9 @@
 namespace cattaneo
 {
 
-/** Elimination of the nodes of a reduced problem, those with the largest initial gap first, an
-    eighth of them at a time. Each step is done once, when it is first asked for, and its bits
-    do not depend on how many follow. */
+/** Eliminates the nodes of a reduced problem, those with the largest initial gap first, an
+    eighth of them at a time. Each step is done once, when it is first needed. Its bits do not
+    depend on the number of later steps. */
 class FarFirst
 {
 public:
@@ -59,9 +59,9 @@ private:
    std::vector<Step> steps_;
 };
 
-/** The problem of the nodes that are near to touching: the others bear nothing and are
-    eliminated, K_nn - K_nf K_ff⁻¹ K_fn. What round-off leaves of that is made up for by a last
-    load pattern, which is another one for each state. */
+/** The problem of the nodes that may soon touch. The others bear nothing and are eliminated,
+    K_nn - K_nf K_ff⁻¹ K_fn. A last load pattern, different for each state, compensates the
+    round-off of the elimination. */
 class NearContact
 {
 public:
@@ -107,9 +107,10 @@ private:
    std::optional<FrictionSolver> solver_;
 };
 
-/** Increments of a solver's problem that leave out the nodes that are far from touching, where
-    most are: as many are taken as the state at the start asks for, more where others come to
-    touch, and all where that does not work. Every state is judged in the whole problem. */
+/** Increments of a solver's problem without the nodes that are far from touching, if most nodes
+    are. The number of nodes follows from the state at the start. It grows if others come to
+    touch, and all nodes are taken if that does not work. Every state is judged in the whole
+    problem. */
 class NearContacts
 {
 public:

@@ -10,8 +10,8 @@
 namespace cattaneo
 {
 
-/** The linear equations that a set of node states stands for, factored once and followed
-    through changes of states: O(m²) a change for m unknowns, where a factorisation costs O(m³).
+/** The linear equations of a set of node states. They are factored once and updated when states
+    change: O(m²) a change for m unknowns, while a factorisation costs O(m³).
 
     With the displacements x = {x_t; x_n} counted from stick (x = 0: no slip, closed) and forces
     F = {q; p} = b + K x, K = [A Bᵀ; B C]:
