@@ -3,8 +3,8 @@
 namespace cattaneo
 {
 
-/// How often each expensive act was done. Every report carries one, so that what a scene does
-/// not need is visibly not done; tests assert these numbers.
+/// How often each expensive operation was done. Every report has one, which shows that
+/// operations that a scene does not need were not done. Tests assert these numbers.
 struct Counters
 {
    long assemblies = 0;         ///< elastic operators assembled
@@ -13,18 +13,18 @@ struct Counters
    long krylov_iterations = 0;  ///< of all iterative solves together
    long field_recoveries = 0;   ///< interior displacement fields recovered
    long unions = 0;             ///< pairs of condensed bodies joined
-   /// Tangential unknowns of the friction problem (0 if frictionless), of the largest one where
-   /// there were several: a size, which neither adds up nor goes away.
+   /// Tangential unknowns of the friction problem (0 if frictionless); of several problems the
+   /// largest number. It is a size, not a count, so that it is not summed.
    long tangential_unknowns = 0;
    long increments = 0;           ///< accepted increments of a march
-   long rejected_increments = 0;  ///< increments that were tried and cut
+   long rejected_increments = 0;  ///< increments that failed and were cut
    long sweeps = 0;               ///< Gauss–Seidel sweeps over all contact nodes
    long newton_steps = 0;         ///< active-set (semismooth Newton) steps
    long dense_factorisations = 0; ///< dense factorisations by the friction solver
    long dense_updates = 0;        ///< unknowns bordered to a dense factor instead
    long pivots = 0;               ///< node states exchanged one by one, along a path
-   long near_contacts = 0; ///< problems made of the nodes that are near to touching alone
-   long limit_solves = 0;  ///< shakedown limit programmes solved
+   long near_contacts = 0;        ///< problems made of only the nodes that may soon touch
+   long limit_solves = 0;         ///< shakedown limit programmes solved
 
    /// Calls visit(name, value&) for every counter, in the order above.
    template <class Self, class Visitor>

@@ -10,7 +10,8 @@ namespace cattaneo
 
 /** A formula that a user writes: numbers, variables, pi, + - * / ^, brackets, and the functions
     abs, sqrt, exp, log, sin, cos, tan, atan, tanh, of two arguments min and max. A number
-    before a variable multiplies it: 2x. InputError, with `called`, for what is none. */
+    before a variable multiplies it: 2x. InputError, with `called`, for a text that is no
+    formula. */
 class Expression
 {
 public:
@@ -18,7 +19,7 @@ public:
    Expression(const std::string &called, const std::string &text,
               const std::vector<std::string> &variables);
 
-   /// The value for given variables, in their order. Not finite where the formula is not.
+   /// The value for given variables, in their order. Not finite if the formula is not.
    double operator()(std::initializer_list<double> values) const
    {
       return value_(values.begin());

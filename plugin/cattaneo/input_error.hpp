@@ -8,8 +8,9 @@
 namespace cattaneo
 {
 
-/// Bad input. The message is one sentence: what, where, the value found and what is allowed.
-/// Outcomes of a solver (gross sliding, no solution) are statuses in its report, never this.
+/// Bad input. The message is one sentence: what is wrong, where, the value found and what is
+/// allowed. Outcomes of a solver (gross sliding, no solution) are statuses in its report, never
+/// an InputError.
 class InputError : public std::invalid_argument
 {
 public:
@@ -19,7 +20,7 @@ public:
 /// The shortest decimal that reads back as the same number.
 std::string exact_text(double value);
 
-/// A part of a message: numbers so that none is taken for another.
+/// A part of a message. Numbers have so many digits that none is taken for another.
 template <class Part>
 const Part &as_text(const Part &part)
 {
@@ -52,7 +53,7 @@ void require(bool condition, const Parts &...parts)
 void require_positive(const char *what, double value);
 /// InputError unless the value is at least `least`.
 void require_at_least(const char *what, double value, double least);
-/// Neither bound is allowed.
+/// InputError unless the value is between both, which are not allowed themselves.
 void require_between(const char *what, double value, double low, double high);
 
 } // namespace cattaneo

@@ -7,10 +7,10 @@ namespace cattaneo
 enum class LineEnd : signed char
 {
    unknown,
-   smooth,   ///< the tangent goes on: contact may want to go on too
+   smooth,   ///< the tangent goes on, so contact may go on too
    corner,   ///< it turns there
    symmetry, ///< the end lies on a plane or the axis of symmetry
-   open ///< the line goes on there with nodes that are taken to stay open (closed_contact())
+   open      ///< the line goes on with nodes that are assumed to stay open (closed_contact())
 };
 
 } // namespace cattaneo

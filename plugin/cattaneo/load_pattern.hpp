@@ -15,11 +15,11 @@ enum class Control
    displacement
 };
 
-/// The contact nodal forces f^w that one load pattern would cause, per unit multiplier, if no
-/// contact node moved (thesis 3.4, 3.17, 3.19).
+/// The nodal forces f^w at the contact by one load pattern, per unit multiplier, with the
+/// contact nodes clamped (thesis 3.4, 3.17, 3.19).
 struct LoadPattern
 {
-   std::string name;                 ///< by which histories and results call it
+   std::string name;                 ///< name in histories and results
    Control control = Control::force; ///< what its multiplier scales
    Eigen::VectorXd q;                ///< tangential, size c·n as ReducedProblem::A
    Eigen::VectorXd p;                ///< normal, compression positive, size n

@@ -3,7 +3,7 @@
 namespace cattaneo
 {
 
-/// What the third direction does: it cannot strain, or carries no stress.
+/// The third direction: it cannot strain, or it carries no stress.
 enum class PlaneState
 {
    strain,
@@ -15,7 +15,7 @@ struct Material
 {
    double young = 1.0;   ///< Young's modulus, > 0
    double poisson = 0.3; ///< Poisson's ratio, -1 < ν < 0.5 in plane strain, < 1 in plane stress
-   PlaneState state = PlaneState::strain; ///< about an axis of revolution not looked at
+   PlaneState state = PlaneState::strain; ///< not used about an axis of revolution
 
    /// First Lamé coefficient of the plane problem (plane stress: 2λμ/(λ+2μ)).
    double lambda() const;

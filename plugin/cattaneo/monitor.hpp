@@ -10,31 +10,32 @@ namespace cattaneo
 /// How far long work has come.
 struct Progress
 {
-   double share = 0;   ///< of it that is done, from 0 to 1; NaN: not known
-   long steps = 0;     ///< done: increments of a march, iterations of a limit
-   double time = 0;    ///< of a march, in its load history
+   double share = 0;   ///< share of the work that is done, from 0 to 1; NaN: not known
+   long steps = 0;     ///< increments of a march, or iterations of a limit, that are done
+   double time = 0;    ///< time of a march in its load history
    double seconds = 0; ///< since it began; share and seconds say how long the rest will take
 };
 
-/** Watches long work, and may stop it. Settings of everything that can take long have one.
+/** Watches long work, and may stop it. The settings of all long work have one.
 
-    Both are asked by the thread that does the work, once an increment (or iteration), never in
-    the middle of one. Copies share the same stop flag. */
+    The thread that does the work uses both, once an increment (or iteration), never in the
+    middle of one. Copies share the same stop flag. */
 struct Monitor
 {
-   /// Called after an increment, but not sooner than `interval` seconds after the call before,
-   /// and once more when the work ends. May be empty. What it throws ends the work as it
-   /// stands.
+   /// Called after an increment, but not sooner than `interval` seconds after the last call,
+   /// and once more at the end of the work. May be empty. An exception that it throws ends the
+   /// work at once.
    std::function<void(const Progress &)> progress;
    double interval = 0.1; ///< seconds, not negative; 0: after every increment
-   /** True asks the work to stop: its status is then `stopped`, its result what it came to
-       before. Not owned, may be null, must outlive the work; nobody resets it. Any thread may
-       set it, and so may a signal handler: std::atomic<bool> is free of locks wherever this
-       library runs, and setting it does nothing else. On several ranks that march together all
-       must set it between the same two increments. */
+   /** True makes the work stop: its status is then `stopped`, with the result so far. Not
+       owned, may be null, must outlive the work. The work does not reset it. Any thread may set
+       it, and so may a signal handler: std::atomic<bool> is free of locks wherever this library
+       runs, and setting it does nothing else. On several ranks that march together all must set
+       it between the same two increments. */
    const std::atomic<bool> *stop = nullptr;
 
-   static_assert(std::atomic<bool>::is_always_lock_free); // a signal handler may set one
+   static_assert(
+      std::atomic<bool>::is_always_lock_free); // a signal handler may set such a flag
 
    /// Has somebody asked the work to stop?
    bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }

@@ -37,7 +37,7 @@ fs::path target(const std::string &file)
 
 void require_writable(const std::string &file)
 {
-   // A name too long for the system, a folder that may not be looked into, a ring of links.
+   // Fails for a name too long for the system, a folder without permission, or a ring of links.
    std::error_code why_not;
    const fs::file_type type = fs::status(file, why_not).type();
    require(type != fs::file_type::none && type != fs::file_type::unknown, "cannot write file '",

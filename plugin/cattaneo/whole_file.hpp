@@ -5,16 +5,17 @@
 namespace cattaneo
 {
 
-/// All of a file; InputError, which begins with `what`, if it cannot be read.
+/// Content of a file. InputError, which begins with `what`, if it cannot be read.
 std::string read_whole(const std::string &file, const std::string &what = "");
 
-/// Writes a text file whole or not at all: beside it first, then renamed, so that whatever goes
-/// wrong leaves an old file as it was and no half of a new one. Devices and pipes are written
-/// to as they are, links followed, permissions kept. InputError if it cannot be written.
+/// Writes a text file completely or not at all: first under another name, then renamed.
+/// Whatever goes wrong, an old file stays as it was, and no half of a new one is left. Devices
+/// and pipes are written to directly, links are followed, and permissions are kept. InputError
+/// if it cannot be written.
 void write_whole(const std::string &file, const std::string &text);
 
-/// InputError unless a file of that name could be written: its folder exists and may be written
-/// to, and it is no folder itself. To be called before long work.
+/// InputError unless a file of that name can be written: its folder exists and is writable, and
+/// it is not a folder itself. To be called before long work.
 void require_writable(const std::string &file);
 
 } // namespace cattaneo

@@ -9,9 +9,9 @@ namespace cattaneo
 /// Pieces of a text between separators (any of these characters), without spaces, tabs and line
 /// ends around them; empty ones are left out.
 std::vector<std::string> split(const std::string &text, const std::string &separators);
-/// The same, but that names in quotes ('bolt 1, w = 1' or with ") are not cut; quotes begin
-/// them only where a piece begins or after a blank, a comma, a semicolon or a dot, else they
-/// are letters. InputError "WHERE: …" for a quote without an end.
+/// The same, but names in quotes ('bolt 1, w = 1' or with ") are not cut. A quote begins a name
+/// only at the beginning of a piece or after a blank, a comma, a semicolon or a dot; elsewhere
+/// it is a letter. InputError "WHERE: …" for a quote without an end.
 std::vector<std::string> split_unquoted(const std::string &where, const std::string &text,
                                         const std::string &separators);
 /// A name without the quotes around it, if it has some.
@@ -28,12 +28,12 @@ std::string csv_field(const std::string &text);
 /// Text that JSON can hold.
 bool is_utf8(const std::string &text);
 
-/// InputError, which begins with `where`, for a key that an object of a JSON text has twice: of
-/// the two a parser keeps the last without a word. Comments are passed over, and what is not
-/// JSON is not looked at.
+/// InputError, which begins with `where`, if an object of a JSON text has a key twice, as a
+/// parser silently keeps the last one. Comments are skipped, and text that is not JSON is not
+/// checked.
 void require_single_keys(const std::string &where, const std::string &text);
 
-/// InputError, which begins with `where`, for a name of a load that statements cannot hold.
+/// InputError, which begins with `where`, for a load's name that statements cannot contain.
 void require_pattern_name(const std::string &where, const std::string &pattern);
 
 } // namespace cattaneo

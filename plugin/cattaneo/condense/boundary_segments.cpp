@@ -14,8 +14,8 @@ namespace
 
 const double degree = std::acos(-1.0) / 180;
 
-/// How the boundary goes on from a node at which the line ends in the direction `out`; `bend`:
-/// angle between its last two elements.
+/// How the boundary goes on from a node at which the line ends in the direction `out`. `bend`
+/// is the angle between the line's last two elements.
 LineEnd goes_on(const std::vector<WayOn> &ways, int node, const Eigen::Vector2d &out,
                 double bend)
 {
@@ -33,11 +33,11 @@ LineEnd goes_on(const std::vector<WayOn> &ways, int node, const Eigen::Vector2d 
    return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
 }
 
-/// Nodes of elements that lie on one another without being joined would bear side by side, and
-/// have two partners each.
+/// Elements that lie on one another without being joined: their nodes would bear side by side,
+/// and have two partners each.
 void check_joined(const ContactLine &line, const std::string &where)
 {
-   // In the order along a direction that no mesh has, few are near each other.
+   // Sorted along a direction that no mesh prefers, so that few nodes are near each other.
    std::vector<std::pair<double, const LineNode *>> along;
    double farthest = 0;
    const double near = 1e-6;
@@ -64,9 +64,9 @@ void check_joined(const ContactLine &line, const std::string &where)
    }
 }
 
-/// From each segment to the one that starts where it ends. Where chains start does not depend
-/// on the numbering of the mesh: open chains at their start, loops at the lowest (x, y), and
-/// chains in the order of these points.
+/// Links each segment to the one that starts at its end. The beginnings of chains do not depend
+/// on the numbering of the mesh: open chains begin at their start, loops at the lowest (x, y),
+/// and chains are in the order of these points.
 std::vector<std::vector<const Segment *>> chained(const std::vector<Segment> &segments,
                                                   const std::string &where)
 {
@@ -135,14 +135,14 @@ std::array<LineEnd, 2> ends_of(const std::vector<const Segment *> &chain, bool l
            end_at(last, last.node.tangent, bend(std::max<std::size_t>(chain.size(), 2) - 2))};
 }
 
-/// All nodes of a chain, with the sums of what their elements give them, and its elements.
+/// All nodes of a chain, with the sums of their elements' contributions, and its elements.
 struct JoinedSegments
 {
    std::vector<SegmentNode> nodes;
    std::vector<LineElement> elements; ///< of nodes of the chain
 };
 
-/// The arc length begins at `start`, and is where the next chain begins afterwards.
+/// `start` is the arc length at the beginning; afterwards it is that of the next chain.
 JoinedSegments join(const std::vector<const Segment *> &chain, double &start)
 {
    JoinedSegments result;
@@ -204,7 +204,7 @@ void give_weights_of_axis(std::vector<SegmentNode> &nodes, const std::string &wh
    }
 }
 
-/// The way on from an end of a chain; zero if none is known.
+/// Direction in which the boundary goes on from an end of a chain; zero if it is not known.
 Eigen::Vector2d way_on(const std::vector<WayOn> &ways, const SegmentNode &end,
                        const Eigen::Vector2d &out)
 {
@@ -221,7 +221,7 @@ Eigen::Vector2d way_on(const std::vector<WayOn> &ways, const SegmentNode &end,
    return found;
 }
 
-/// How far inner nodes of an element are off its chord, in lengths of it.
+/// Largest distance of inner nodes of an element from its chord, in lengths of the chord.
 double off_chord(const LineElement &element)
 {
    double off = 0;
@@ -232,8 +232,8 @@ double off_chord(const LineElement &element)
    return off;
 }
 
-/// Tells elements that are straight what smooth curve their ends lie on. Where others of the
-/// chain are curved the mesh knows of curves, and straight ones are what they are.
+/// Gives straight elements the smooth curve on which their ends lie. If other elements of the
+/// chain are curved the mesh knows of curves, and straight elements are meant to be straight.
 void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chain, bool loop,
                 const std::vector<WayOn> &ways)
 {
@@ -251,7 +251,7 @@ void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chai
                      way_on(ways, last, last.node.tangent)};
    }
    const std::vector<EdgeBend> bends = smooth_curve(side), possible = possible_curve(side);
-   // Nodes of a file with few digits are off a chord as well.
+   // Inner nodes of a file with few digits are off the chord as well.
    std::vector<bool> curved;
    for (std::size_t e = 0; e < bends.size(); ++e)
    {

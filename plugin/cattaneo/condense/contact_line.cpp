@@ -11,8 +11,9 @@ namespace cattaneo
 namespace
 {
 
-/// Elements that follow each other from the first node of a chain to the last one, or back to
-/// the first, with every node of the chain once but for those that two elements share.
+/// Checks that elements follow each other from the first node of a chain to the last one, or
+/// back to the first, and have every node of the chain once, except nodes that two elements
+/// share.
 void check_elements(const ContactLine &line, const LineChain &chain)
 {
    const Eigen::Index end = chain.first + chain.nodes;
@@ -43,8 +44,8 @@ void check_elements(const ContactLine &line, const LineChain &chain)
            " end before node ", next, ", must end at node ", end - 1);
 }
 
-/// A node much nearer to one neighbour than to the other one has a weight next to nothing, over
-/// which its force is mostly round-off.
+/// A node much nearer to one neighbour than to the other one has a tiny weight, so that force
+/// over weight is mostly round-off.
 void check_spacing(const ContactLine &line, const LineChain &chain)
 {
    const Eigen::Index count = chain.loop ? chain.nodes : chain.nodes - 2;
@@ -76,7 +77,7 @@ double LineElement::off_chord(Eigen::Index node) const
    return (chord[1] * to_node[0] - chord[0] * to_node[1]) / chord.squaredNorm();
 }
 
-/// How far a curve over the chord of an element lies from the element.
+/// Distance of a curve over the chord of an element from the element.
 static Eigen::Vector2d off(const LineElement &element, const EdgeBend &curve, double s)
 {
    if (curve.straight()) { return {0, 0}; }
@@ -225,7 +226,7 @@ double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other)
 
 void bend_elements(ContactLine &line, const std::vector<SideChord> &chords)
 {
-   // In the order of their beginnings along x, where few are near each other.
+   // Sorted by their beginnings along x, so that few are near each other.
    std::vector<const SideChord *> all;
    for (const SideChord &chord : chords) { all.push_back(&chord); }
    std::sort(all.begin(), all.end(),
@@ -283,7 +284,8 @@ ContactLine joined(const std::vector<ContactLine> &lines)
                if (node >= 0) { node += chain.first - from; }
             }
          }
-         // The elements are the lines' own; of a trace that has lost a node none are left.
+         // The elements are those of the lines. A trace that has lost a node has no elements
+         // left.
          if (!whole)
          {
             chain.elements.clear();

@@ -16,12 +16,13 @@ namespace cattaneo
 /// A contact node of one body.
 struct LineNode
 {
-   /// Dofs of the body's stiffness, for each component: x and y (twist, -1). For a body on
+   /// Dofs of the body's stiffness for x and y; in torsion the twist and -1. For a body on
    /// several ranks these numbers are the same on all ranks.
    std::array<int, 2> dofs{-1, -1};
    Eigen::Vector2d position{0, 0}; ///< (x, y), or (r, z)
    Eigen::Vector2d tangent{1, 0};  ///< unit vector along the line, the body on its left
-   /// Consistent: ∫φ ds in the plane (they sum to the length), else ∫φ 2πr ds (to the area).
+   /// Consistent weight: ∫φ ds in the plane (the sum is the length), else ∫φ 2πr ds (the sum is
+   /// the area).
    double weight = 0;
    double arc_length = 0; ///< from the line's beginning
    double spacing = 0;    ///< shortest distance to a neighbour, the local edge length
@@ -41,24 +42,25 @@ struct LineElement
    /// Numbers of its nodes in the line, in their order along it; -1 of a node on the axis,
    /// which is no contact node.
    std::vector<Eigen::Index> nodes;
-   Eigen::Matrix2Xd points; ///< where all of them are, one a column
-   /// The smooth curve that the chord between its ends belongs to, straight where the side is a
-   /// polygon. Not known: of elements that are curved by their mesh, and of a script that says
-   /// nothing (smooth_curve() may be asked).
+   Eigen::Matrix2Xd points; ///< places of all of them, one a column
+   /// The smooth curve of which the line between its ends is a chord; straight if the side is a
+   /// polygon. Empty, that is not known, for elements that their mesh curves, and for a script
+   /// that does not set it (see smooth_curve()).
    std::optional<EdgeBend> bend = std::nullopt;
-   /// The curve that it may belong to where its side is kept a polygon for want of evidence
-   /// (possible_curve()): gaps are not measured on it, estimates have it.
+   /// The curve to which it may belong if its side is kept a polygon for lack of evidence
+   /// (possible_curve()). Gaps are not measured on it, but estimates of errors use it.
    EdgeBend possible = {};
 
    /// Degree of the polynomials: one less than its nodes.
    Eigen::Index order() const { return points.cols() - 1; }
-   /// How far a node is to the right of the chord between the ends, over the chord's length.
+   /// Distance of a node to the right of the chord between the ends, over the chord's length.
    double off_chord(Eigen::Index node) const;
-   /// How far its smooth curve lies from the element at 0 <= s <= 1; zero if none is known.
+   /// Distance of its smooth curve from the element at 0 <= s <= 1; zero if no curve is known.
    Eigen::Vector2d off_curve(double s) const;
    /// The same of the curve that it may belong to.
    Eigen::Vector2d off_possible(double s) const;
-   /// The direction of its smooth curve there, a unit vector; of the chord if none is known.
+   /// The direction of its smooth curve there, a unit vector; that of the chord if no curve is
+   /// known.
    Eigen::Vector2d curve_tangent(double s) const;
 };
 
@@ -74,19 +76,19 @@ struct LineChain
        a polygon stands for a curve. Else there is a corner. A loop goes on smoothly. Unknown
        where no outer edge goes on. */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
-   /// In their order along the chain. Without them it is not known whether elements of two
-   /// lines match: nodes are paired by their places and weights then, and nothing else.
+   /// Elements in their order along the chain. Without them nobody knows whether the elements
+   /// of two lines match. Nodes are then paired by places and weights alone.
    std::vector<LineElement> elements = {};
    /// At ends on a plane of symmetry that is a support: the angle in radians between the line
-   /// and the normal of that plane. The line has its own tangent where it is straight, else
-   /// that of the curve through its last nodes. Known once the body is condensed.
+   /// and the normal of that plane. For a straight line its own tangent counts, else that of
+   /// the curve through its last nodes. Set when the body is condensed.
    std::array<double, 2> off_symmetry{0, 0};
-   /// Degrees. A line that meets a support at no more than that, off 90 degrees, ends at a
-   /// plane of symmetry: coordinates of six digits may have that error. From there on it is one
-   /// only if the line curves so that it meets its own mirror image without a corner.
+   /// Degrees. A line that meets a support at 90 degrees, to within this angle, ends at a plane
+   /// of symmetry, as coordinates of six digits may have that error. At larger angles it does
+   /// so only if it curves such that it meets its own mirror image without a corner.
    static constexpr double symmetry_turn = 0.01;
    static constexpr double smooth_turn =
-      10; ///< degrees of the tangent between elements: less is smooth
+      10; ///< turn of the tangent between elements in degrees; less is smooth
    static constexpr double corner_turn = 45; ///< degrees: more is a corner
 };
 
@@ -119,22 +121,23 @@ struct ContactLine
    Formulation formulation = Formulation::plane; ///< decides what dofs and weights are
    std::vector<LineNode> nodes;                  ///< along the boundary, chain after chain
    std::vector<LineChain> chains; ///< in the order of the nodes, each node on one
-   /// Gaps are those of the elements as they are, and not of the smooth curves that they may be
-   /// chords of (LineElement::bend).
+   /// Gaps are those of the elements themselves, not of the smooth curves of which they may be
+   /// chords (LineElement::bend).
    bool as_meshed = false;
 
    /// Number of contact nodes.
    Eigen::Index size() const { return static_cast<Eigen::Index>(nodes.size()); }
-   /// n × 2: how far the smooth curves that elements are chords of (LineElement::bend) lie from
-   /// the nodes; zero at the ends of elements, and where nodes were moved onto them.
+   /// n × 2: distances of the nodes from the smooth curves of which elements are chords
+   /// (LineElement::bend). Zero at the ends of elements, and for nodes that were moved onto the
+   /// curves.
    Eigen::MatrixX2d off_curves() const;
-   /// n × 2: where gaps are measured from, nodes on those curves; as meshed the nodes
+   /// n × 2: points from which gaps are measured, on those curves; if as meshed the nodes
    /// themselves.
    Eigen::MatrixX2d outline() const;
-   /// n × 2: how far the curves that gaps are not measured on lie from the nodes: all of them
-   /// as meshed, else those that elements may belong to (LineElement::possible).
+   /// n × 2: distances of the nodes from curves on which gaps are not measured. If as meshed
+   /// these are all curves, else those to which elements may belong (LineElement::possible).
    Eigen::MatrixX2d off_unmeasured() const;
-   /// n × 2: how far the outline is from chords that were taken for smooth curves.
+   /// n × 2: distances of the outline from the chords that were taken for smooth curves.
    Eigen::MatrixX2d bulges() const;
    /// The chain that a node is on.
    const LineChain &chain_of(Eigen::Index node) const;
@@ -177,8 +180,8 @@ double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other);
    of none. */
 ContactLine joined(const std::vector<ContactLine> &lines);
 
-/// Gives the elements of a line the curves that are known of the side it is on
-/// (SmoothSides::chords of a mesh, whose file may know more than the line's vertices tell).
+/// Gives the elements of a line the known curves of its side (SmoothSides::chords of a mesh,
+/// whose file may tell more than the line's vertices).
 void bend_elements(ContactLine &line, const std::vector<SideChord> &chords);
 
 } // namespace cattaneo

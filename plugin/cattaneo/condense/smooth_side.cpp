@@ -19,10 +19,11 @@ double cross(const Vector2d &a, const Vector2d &b)
    return a[0] * b[1] - a[1] * b[0];
 }
 
-/// How many vertices are added beyond an end to see it as one that goes on: more than a run of
-/// turns that decides.
+/// Number of vertices that are added beyond an end to continue the side. It is more than the
+/// length of a run of turns that decides.
 constexpr int beyond_end = 8;
-/// Vertices on each side of one that tell whether it is one of a profile that turns to and fro.
+/// Number of vertices on each side of a vertex that tell whether it belongs to a profile that
+/// turns to and fro.
 constexpr int around_profile = 8;
 
 /** A side without ends where it has none: loops and mirror images go on beyond them. */
@@ -31,10 +32,11 @@ class OpenSide
 public:
    explicit OpenSide(const SidePolygon &side);
    std::vector<EdgeBend> bends();
-   /// Does the curve, once its bends are known, go on beyond an end as the image that it was
-   /// given there? Without an image: true.
+   /// Does the curve with its bends go on beyond an end as the assumed mirror image? True
+   /// without an image.
    bool meets_image(bool end) const;
-   /// After bends(): arcs that vertices may be of which it has taken for corners.
+   /// To be called after bends(): arcs to which vertices may belong that it has taken for
+   /// corners.
    std::vector<EdgeBend> possible() const;
 
 private:
@@ -61,7 +63,7 @@ private:
    bool within(int i) const { return curve_[i - 1] >= 0 && curve_[i - 1] == curve_[i]; }
    bool inside(int i) const { return within(i) || (curve_[i - 1] >= 0 && joined_[i]); }
    bool parts(int i) const { return curve_[i - 1] != curve_[i] && !joined_[i]; }
-   /// Does the circle through this vertex and its neighbours tell the curvature of both edges?
+   /// Is the curvature of both edges that of the circle through this vertex and its neighbours?
    bool tells(int i) const
    {
       return i > 0 && i < last() && !corner_[i] && !parts(i) && joint_[i] == 0;
@@ -76,8 +78,7 @@ private:
    int first_ = 0;          ///< edge that was the first
    std::size_t edges_ = 0;  ///< how many there were
    std::vector<double> length_, along_, turn_, curvature_, centre_;
-   /// Turns of no more than that are those of round-off, unless they follow each other
-   /// steadily.
+   /// Smaller turns are round-off, unless they follow each other steadily.
    double flat_ = 0;
    std::array<int, 2> tip_{-1, -1}; ///< vertices beyond which there is a mirror image
    std::vector<bool> steady_, corner_, joined_;
@@ -93,7 +94,8 @@ OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
    curve_ = side.curves.size() == edges_ ? side.curves : std::vector<int>(edges_, -1);
    if (side.loop)
    {
-      // A vertex and an edge before the first are those before the last, as often as need be.
+      // A vertex or edge before the first one is counted from the end of the loop, any number
+      // of rounds.
       Vertices around;
       std::vector<int> curves;
       for (int k = -beyond_end; k <= n + beyond_end; ++k)
@@ -116,7 +118,7 @@ OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
       // Half of the turn between the edge and its image.
       if (std::abs(out.dot(axis)) > std::sin(0.5 * SidePolygon::corner * degree)) { continue; }
       const int images = std::min(beyond_end, last());
-      // A curve of the file with a single edge, with no vertex inside, has none at the tip
+      // A curve of the file with a single edge has no vertex inside, and so none at the tip
       // either: its image is another curve.
       const int edges = static_cast<int>(curve_.size()), at_tip = end ? edges - 1 : 0;
       const bool single = edges < 2 || curve_[at_tip] != curve_[at_tip + step];
@@ -147,8 +149,8 @@ OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
    }
 }
 
-/// Turns at the vertices, and curvatures of circles through three of them, which are those of
-/// the curve at the mean of their places.
+/// Computes the turns at the vertices, and the curvatures of circles through three of them.
+/// These are the curvatures of the curve at the mean of the three places.
 void OpenSide::measure()
 {
    const auto n = x_.size();
@@ -183,8 +185,8 @@ void OpenSide::measure()
    find_steady_runs();
 }
 
-/// Four turns in a row or more in one direction, of like curvature, are none of round-off,
-/// which goes to and fro: so small ones are those of a slightly crowned side, however much a
+/// Four or more turns in a row in one direction, of similar curvature, are not round-off, which
+/// goes to and fro. However small, they belong to a slightly crowned side, however much a
 /// chamfer beside it turns.
 void OpenSide::find_steady_runs()
 {
@@ -202,9 +204,9 @@ void OpenSide::find_steady_runs()
    }
 }
 
-/// An arc may be several curves of the file, of which some have a single edge. Where the
-/// curvature is the same at both vertices beside an end of a curve it is no end, if that of a
-/// vertex within a curve is the same: else all of them are facets.
+/// An arc may consist of several curves of the file, some with a single edge. An end of a curve
+/// does not count as one if the curvature is the same at both vertices beside it and also at a
+/// vertex within a curve. Without such a vertex all of them are facets.
 void OpenSide::join_curves()
 {
    const auto alike = [&](int i, int j)
@@ -230,8 +232,8 @@ void OpenSide::join_curves()
    }
 }
 
-/// Corners by the angle, and by what the vertices beside them let expect. False if one is
-/// within a curve of the file, which is none then.
+/// Finds corners by the angle, and by comparison with the vertices beside them. False if a
+/// corner is within a curve of the file, which then is no curve.
 bool OpenSide::find_corners()
 {
    corner_.assign(x_.size(), false);
@@ -256,7 +258,7 @@ bool OpenSide::find_corners()
          if (!left && !right) { is_corner = !inside(i); }
          else
          {
-            // A neighbour that tells nothing is taken to be like the other one.
+            // A neighbour that tells nothing counts like the other one.
             const double on_left = curvature_[left ? i - 1 : i + 1],
                          on_right = curvature_[right ? i + 1 : i - 1];
             const double expected = arc(i - 1, on_left) + arc(i, on_right);
@@ -275,8 +277,7 @@ bool OpenSide::find_corners()
    return true_curves;
 }
 
-/// Where no curve is known: turns in one direction that are too few to tell an arc from a
-/// chamfer.
+/// If no curve is known: turns in one direction that are too few to tell an arc from a chamfer.
 void OpenSide::find_short_runs()
 {
    const auto counts = [&](int i)
@@ -306,7 +307,7 @@ void OpenSide::find_short_runs()
          ++end;
       }
       const int turns = end - begin;
-      // A straight flank on the same curve as an arc says that this is no curve of the file's.
+      // If a straight flank is on the same curve as an arc, that curve is not one of the file.
       const auto flank = [&](int i)
       { return i > 0 && i < last() && inside(i) && !corner_[i] && !counts(i); };
       known = known && !(flank(begin - 1) && !parts(begin)) && !(flank(end) && !parts(end - 1));
@@ -318,8 +319,8 @@ void OpenSide::find_short_runs()
    }
 }
 
-/// Is a vertex a corner that turns against one beside it, and not by far more? A chamfer or a
-/// facet turns one way.
+/// Is a vertex a corner that turns in the other direction than one beside it, by a similar
+/// angle? A chamfer or a facet turns in one direction.
 bool OpenSide::to_and_fro(int i) const
 {
    const auto against = [&](int j)
@@ -330,10 +331,10 @@ bool OpenSide::to_and_fro(int i) const
    return corner_[i] && (against(i - 1) || against(i + 1));
 }
 
-/// A measured profile: where a third of the vertices that turn do so to and fro, the others do
-/// not lie on a curve either. Asked of the vertices around each one, as other parts of a side
-/// may be what they are. Beside such vertices a few that turn one way do so by chance, unless
-/// they are twelve, or five that turn alike.
+/// Finds measured profiles. If a third of the turning vertices turn to and fro, the others do
+/// not lie on a curve either. Only the vertices around each one count, as other parts of the
+/// side may be different. Beside such vertices a few that turn in one direction do so by
+/// chance, unless they are twelve, or five with similar turns.
 void OpenSide::drop_profile()
 {
    std::vector<bool> dropped = corner_;
@@ -382,9 +383,9 @@ void OpenSide::drop_profile()
    }
 }
 
-/// Does a vertex turn as one does between an arc on this side of it (-1: before, 1: after) and
-/// a straight flank, by the half of what the edge of the arc spans? Within that share of what
-/// it would turn more by if the arc went on.
+/// Is a vertex the joint of an arc on this side of it (-1: before, 1: after) and a straight
+/// flank? It then turns by half of the angle that the arc's edge spans. The tolerance is this
+/// share of the additional turn if the arc went on.
 bool OpenSide::fits_flank(int i, int way, double within) const
 {
    if (!tells(i) || !tells(i + way)) { return false; }
@@ -393,9 +394,9 @@ bool OpenSide::fits_flank(int i, int way, double within) const
    return std::abs(half) > flat(i) && std::abs(turn_[i] - half) < within * std::abs(more);
 }
 
-/// Vertices between an arc and a straight flank, which no curve of the file tells. The flank is
-/// straight where the next vertex does not turn, or is the joint of another arc. At a corner or
-/// an end nothing else tells: only arcs of circles fit there.
+/// Finds vertices between an arc and a straight flank that no curve of the file marks. The
+/// flank is straight if the next vertex does not turn, or is the joint of another arc. At a
+/// corner or an end this cannot be checked, so only arcs of circles fit there.
 void OpenSide::find_joints()
 {
    std::vector<int> found(joint_.size(), 0);
@@ -431,7 +432,7 @@ EdgeBend OpenSide::bend(int e) const
       if (!both) { return; }
       const double s = slope(std::min(near, far), std::max(near, far)),
                    there = at + s * (middle - centre_[near]);
-      // Never turned round, nor doubled: that is no curve that goes on.
+      // Never reversed nor doubled, as the curve would then not go on.
       if (there * at < 0 || std::abs(there) > 2 * std::abs(at)) { return; }
       at = there;
       change = s;
@@ -503,7 +504,7 @@ std::vector<EdgeBend> OpenSide::all_bends() const
    return found;
 }
 
-/// Those of the side's own edges, where they are more than round-off.
+/// Bends of the side's own edges, if they are more than round-off.
 std::vector<EdgeBend> OpenSide::of_edges(const std::vector<EdgeBend> &all) const
 {
    std::vector<EdgeBend> own(edges_);
@@ -528,10 +529,10 @@ bool OpenSide::meets_image(bool end) const
    if (tip < 0 || last() < 2) { return true; }
    if (corner_[tip]) { return false; }
    const int near = tip + step, far = near + step;
-   // A flank between the tip and an arc must be across the plane.
+   // A flank between the tip and an arc must be normal to the plane.
    if (joint_[near] != 0) { return std::abs(turn_[tip]) <= flat(tip); }
    if (!tells(near)) { return true; }
-   // The turn at the tip if the curvature beside it goes on, constant or linear.
+   // The turn at the tip if the curvature beside it goes on, constantly or linearly.
    const int edge = end ? tip - 1 : tip;
    const double alike = 2 * arc(edge, curvature_[near]);
    double linear = alike;
@@ -569,8 +570,8 @@ std::vector<EdgeBend> OpenSide::possible() const
       end = begin + 1;
       if (!kept(begin)) { continue; }
       while (end < last() && goes_on(end)) { ++end; }
-      // Two turns are those of a chamfer, unless they are all that there is between two corners
-      // and the edges are as long as each other.
+      // Two turns make a chamfer, unless there are no others between two corners and the edges
+      // are equally long.
       const auto first = length_.begin() + begin - 1, beyond = length_.begin() + end;
       const bool alone =
          ends(begin - 1) && ends(end) &&
@@ -589,7 +590,7 @@ std::vector<EdgeBend> OpenSide::possible() const
    return own;
 }
 
-/// A side whose bends are known, without images that it does not meet.
+/// A side with its bends, without images that it does not meet smoothly.
 OpenSide settled(SidePolygon side)
 {
    OpenSide open(side);
@@ -607,7 +608,8 @@ OpenSide settled(SidePolygon side)
 
 double EdgeBend::off(double s) const
 {
-   // The arc of a circle with the mean of both angles, and a cubic that leans to one end.
+   // The curve is the arc of a circle with the mean of both angles, plus a cubic that leans to
+   // one end.
    const double mean = 0.5 * (begin + end), sine = std::sin(mean);
    const double arc = 2 * sine * s * (1 - s) /
                       (std::sqrt(1 - 4 * sine * sine * (s - 0.5) * (s - 0.5)) + std::cos(mean));

@@ -17,8 +17,8 @@ struct EdgeBend
    double begin = 0;                                        ///< at the first vertex of the edge
    double end = 0;                                          ///< at the last one
    bool straight() const { return begin == 0 && end == 0; } ///< the curve is the chord
-   /// How far to the right of the chord the curve is at 0 <= s <= 1 along it, in lengths of the
-   /// edge.
+   /// Distance of the curve to the right of the chord at 0 <= s <= 1 along it, in lengths of
+   /// the edge.
    double off(double s) const;
    /// Its derivative by s, the tangent of the angle between curve and chord there.
    double slope(double s) const;
@@ -26,7 +26,7 @@ struct EdgeBend
    EdgeBend reversed() const { return {end, begin}; }
 };
 
-/// An edge of a side with the curve that it is a chord of.
+/// An edge of a side, and the curve of which it is a chord.
 struct SideChord
 {
    Eigen::Vector2d from; ///< the body on the left
@@ -40,19 +40,19 @@ struct SidePolygon
 {
    std::vector<Eigen::Vector2d> vertices; ///< along the side, the body on the left
    bool loop = false;                     ///< the last vertex is followed by the first
-   /// The curve of the file that each edge is on (an entity of Gmsh), -1: not known. Empty: of
-   /// none.
+   /// The curve of the file on which each edge is (an entity of Gmsh), -1: not known. Empty:
+   /// not known for any edge.
    std::vector<int> curves = {};
-   /// Directions in which the boundary goes on beyond the ends, zero: not known, or no plane of
-   /// symmetry. Where that is nearly across the side, and the side meets its mirror image there
-   /// as smoothly as it goes on within, the curve goes on as that image.
+   /// Directions in which the boundary goes on beyond the ends; zero if not known, or at no
+   /// plane of symmetry. If the direction is nearly normal to the side, and the side meets its
+   /// mirror image there as smoothly as its own edges meet, the curve goes on as that image.
    std::array<Eigen::Vector2d, 2> beyond{Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0)};
 
    static constexpr double corner = 31;        ///< degrees: a circle of twelve edges has 30
    static constexpr double corner_within = 46; ///< degrees: a circle of eight edges has 45
 };
 
-/** The smooth curve that each edge of a side is a chord of; straight ones where the side is a
+/** The smooth curve of which each edge of a side is a chord; straight edges if the side is a
     polygon. Three criteria decide, in this order.
 
     1. The file: vertices within one of its curves are smooth, its ends may be corners, and the

@@ -79,7 +79,8 @@ double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &ke
    const auto size = static_cast<Index>(keep.size()), interior = size - contact;
    MatrixXd rhs = MatrixXd::Zero(size, probes);
    rhs.bottomRows(contact) = factor.push(u);
-   const MatrixXd W = factor.solve(rhs); // its contact part is what is probed, u but for errors
+   const MatrixXd W =
+      factor.solve(rhs); // its contact part is the tested motion: u, apart from errors
 
    // K W in extended precision, and (δK) W.
    const SparseView K = stiffness.view();
@@ -106,8 +107,8 @@ double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &ke
          }
       }
    }
-   // Both as forces at the contact: -K_CI K_II⁻¹ r = (S + shift) U_C, with U the answer of the
-   // factor to {r; 0}.
+   // Both errors as forces at the contact: -K_CI K_II⁻¹ r = (S + shift) U_C, where U is the
+   // factor's solution for {r; 0}.
    MatrixXd rest = MatrixXd::Zero(size, probes);
    rest.topRows(interior) = force.topRows(interior).cast<double>() - change.topRows(interior);
    const MatrixXd through = factor.push(factor.solve(rest).bottomRows(contact));

@@ -49,8 +49,9 @@ public:
    }
 };
 
-/// Free motions of a body on several ranks, taken for connected: what its supports and the
-/// places of its contact nodes leave, less what K resists. The errors of find_free_motions().
+/// Free motions of a body on several ranks, which is assumed to be connected: those that its
+/// supports and the places of its contact nodes leave free, and that K does not resist. Throws
+/// the same errors as find_free_motions().
 FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &line)
 {
    const Ranks &ranks = body.ranks();
@@ -97,7 +98,7 @@ FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &li
    places.y = Eigen::Map<const Eigen::VectorXd>(y.data(), static_cast<Eigen::Index>(y.size()));
    std::vector<int> all(x.size());
    std::iota(all.begin(), all.end(), 0);
-   // What the first so many places leave; on the dofs of this rank zero where they are fixed.
+   // Motions that the first places leave free; zero on dofs of this rank that are fixed.
    const auto left_by = [&](int count)
    {
       std::vector<bool> holding(all.size(), false);

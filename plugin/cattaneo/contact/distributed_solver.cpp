@@ -11,8 +11,8 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Relative residuals (in the preconditioner's norm, whose square is an energy): of fields that
-// enter energies, and of those whose forces are read off.
+// Relative residuals, in the preconditioner's norm, whose square is an energy. The first is for
+// fields that enter energies, the second for fields whose forces are read off.
 static constexpr double coarse = 1e-8, fine = 1e-13;
 
 DistributedSolver::DistributedSolver(const ElasticBody &body, const std::vector<int> &contact,
@@ -45,8 +45,9 @@ DistributedSolver::DistributedSolver(const ElasticBody &body, const std::vector<
       preconditioner_->SetSystemsOptions(body.components(),
                                          body.space().GetOrdering() == mfem::Ordering::byNODES);
    }
-   // Half-planes are rings of elements that are needles far away: only strong couplings must
-   // count, and no level be skipped (docs/ranks.md: 16 iterations instead of 123).
+   // Half-planes are meshed by rings of elements, which are needles far away. So only strong
+   // couplings may count, and no level may be skipped (docs/ranks.md: 16 iterations instead of
+   // 123).
    preconditioner_->SetStrengthThresh(0.7);
    preconditioner_->SetAggressiveCoarsening(0);
 }
@@ -125,7 +126,7 @@ Eigen::MatrixXd DistributedSolver::schur(Counters &counters) const
 {
    const auto size = static_cast<Index>(held_.size());
    const auto contact = static_cast<Index>(contact_.size());
-   // Block by block: an energy as soon as both of its fields are there.
+   // Block by block: an energy is computed as soon as both of its fields are known.
    const Index block = 64;
    MatrixXd W(size, contact), KW(size, block), S = MatrixXd::Zero(contact, contact);
    for (Index start = 0; start < contact; start += block)

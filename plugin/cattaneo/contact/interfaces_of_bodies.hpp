@@ -17,7 +17,7 @@ struct NamedBody
 struct BoundarySide
 {
    int body = -1;                       ///< number of the body; -1: a rigid obstacle
-   BoundaryPart part = BoundaryPart(1); ///< of its boundary; of a rigid obstacle not looked at
+   BoundaryPart part = BoundaryPart(1); ///< part of its boundary; not used for a rigid obstacle
 };
 
 /// Interface of MFEM bodies, see there.
@@ -29,12 +29,12 @@ struct BoundaryInterface
    SlaveSide slave = SlaveSide::coarser;          ///< which of the two has the nodes
    std::optional<ScalarField> gap = std::nullopt; ///< the geometry's unless given
    double most_overlap =
-      Interface().most_overlap; ///< in lengths of an element: more is taken for a mistake
+      Interface().most_overlap; ///< in lengths of an element; a larger overlap is an error
    bool tied = false;           ///< joined, whatever happens
-   /// Gaps are those of the meshes' edges. Else straight edges whose vertices lie as on a
-   /// smooth curve are taken for chords of it (smooth_curve()), which gaps are measured
-   /// between; the meshes stay as they are. With elements of order 2 or more curve_sides()
-   /// before the bodies are made is better: it moves their nodes onto the curves.
+   /// Gaps are those of the meshes' edges. Otherwise straight edges whose vertices lie as on a
+   /// smooth curve are taken for its chords (smooth_curve()), and gaps are measured between the
+   /// curves, without changing the meshes. With elements of order 2 or more it is better to
+   /// call curve_sides() before the bodies are made, which moves their nodes onto the curves.
    bool as_meshed = false;
 };
 

@@ -5,9 +5,9 @@
 namespace cattaneo
 {
 
-/** Reads a stiffness that another program wrote; `places` names the file that says where its
-    nodes are, if that is not beside it with the same name. What is read goes by the end of the
-    name and the first line:
+/** Reads a stiffness that another program wrote. `places` names the file with the places of its
+    nodes, if that is not beside it with the same name. The end of the name and the first line
+    decide how the file is read:
 
     - `.sti`, places in `.inp`: CalculiX, *FREQUENCY, SOLVER=MATRIXSTORAGE; rows from `.dof`
     - `.mtx`, places in `.inp`, of the same name or of that before "_STIF1", as ABAQUS names
@@ -30,12 +30,13 @@ namespace cattaneo
    axisymmetric elements, flat wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it
    are the wedge's.
 
-    A `.dofs` file says of each row, in their order, `node direction x y`, and may say, in lines
-    of their own, `axisymmetric`, `set NAME nodes…`, `fixed node direction`, `force LOAD node
+    A `.dofs` file has a line `node direction x y` for each row, in their order. It may also
+    have lines `axisymmetric`, `set NAME nodes…`, `fixed node direction`, `force LOAD node
     direction value` and `displacement LOAD node direction value`; # begins a comment.
 
-    InputError, in one sentence with the file and the line or the entry, for what is cut short,
-    not finite, there twice, not symmetric, of rotations or a third direction. */
+    InputError, in one sentence with the file and the line or the entry, if the file is cut
+    short, or contains numbers that are not finite, entries that are there twice or not
+    symmetric, rotations, or a third direction. */
 NodalStiffness read_stiffness(const std::string &matrix, const std::string &places = "");
 
 /// The file of the stiffness that a deck "job.inp" writes: "job.sti" of CalculiX, "job.mtx", or

@@ -41,8 +41,7 @@ SymmetricEntries::matrix(int size, const std::string &file,
    for (int row = 0; row < size; ++row)
    {
       if (K.coeff(row, row) > 0 || !is_elastic(row)) { continue; }
-      // A row that holds nothing at all may be a support that was eliminated, which is asked of
-      // it later.
+      // An empty row may be a support that was eliminated, which is checked later.
       if (Matrix(K.row(row)).norm() == 0 && Matrix(mirrored.row(row)).norm() == 0) { continue; }
       require(false, place(row, row), " is ", K.coeff(row, row),
               ", the diagonal of a stiffness must be positive");

@@ -24,9 +24,9 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
 void write_npz(const std::string &file, const ReducedProblem &problem,
                const Eigen::MatrixXd &M = {});
 
-/// MatrixMarket, coordinate, symmetric, beside it the `.dofs` that read_stiffness() asks for:
-/// all of it comes back to the last bit, but for nodes without rows, which leave their sets.
-/// `file` ends with `.mtx`.
+/// MatrixMarket, coordinate, symmetric, and beside it the `.dofs` that read_stiffness() needs.
+/// All of it is read back to the last bit, except that sets lose nodes without rows. `file`
+/// ends with `.mtx`.
 void write_matrix_market(const std::string &file, const NodalStiffness &stiffness);
 
 /** ABAQUS: a linear user element of all nodes (*USER ELEMENT, *MATRIX, TYPE=STIFFNESS, the

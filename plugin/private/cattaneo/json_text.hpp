@@ -6,10 +6,10 @@
 namespace cattaneo
 {
 
-/// JSON of a text, in which each object has each of its keys once: of two the library would
-/// keep the last without a word. InputError, which begins with `what`, for a key that is there
-/// twice; the library's own error for what is not JSON, as comments are unless they are
-/// allowed. Compiled once: a parser takes long.
+/// Parses a JSON text. InputError, which begins with `what`, if an object has a key twice, as
+/// the library would silently keep the last one. The library's own error if the text is not
+/// JSON, or has comments although they are not allowed. Compiled once, because a parser takes
+/// long to compile.
 nlohmann::json parsed(const std::string &text, const std::string &what, bool comments = false);
 
 } // namespace cattaneo

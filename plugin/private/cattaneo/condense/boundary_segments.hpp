@@ -33,8 +33,8 @@ struct SegmentNode
 /// The nodes of one boundary element, in the direction with the body on the left.
 using Segment = std::vector<SegmentNode>;
 
-/// An outer edge of the body, seen from a node that it shares with the line. (One that is on
-/// the line leaves it backwards there.)
+/// An outer edge of the body, seen from a node that it shares with the line. (An edge on the
+/// line itself leaves the node backwards.)
 struct WayOn
 {
    int node;
@@ -44,7 +44,7 @@ struct WayOn
 /** The contact line of boundary elements in any order: chains of them, nodes on the axis left
     out, ends by the outer edges that leave its nodes. InputError, which begins with `where`, if
     more than two elements meet at a node, nodes lie on one another, the line turns back on
-    itself, or the line is not sound (ContactLine::validate). */
+    itself, or it is not valid (ContactLine::validate). */
 ContactLine line_of(const std::vector<Segment> &segments, const std::vector<WayOn> &ways,
                     Formulation formulation, const std::string &where);
 

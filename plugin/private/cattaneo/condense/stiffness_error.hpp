@@ -7,13 +7,13 @@
 namespace cattaneo
 {
 
-/** How wrong a condensed stiffness is, measured by energies: an estimate from above of the
-    largest |uᵀ (S - S*) u| / uᵀ S u over all motions u of the contact nodes that meet
-    resistance, S* the stiffness in exact arithmetic. Forces of given compliances are wrong by
-    about as much. It is infinite where S does not resist a motion that it should.
+/** Error of a condensed stiffness in energies: an upper estimate of |uᵀ (S - S*) u| / uᵀ S u
+    over all motions u of the contact nodes that the body resists. S* is the stiffness in exact
+    arithmetic. Forces of given compliances have about the same relative error. It is infinite
+    if S does not resist a motion that it should.
 
-    One motion says S u; a random one, of the same energy in every direction, has its share of
-    whichever is worst. For a matrix E = L⁻¹ (S - S*) L⁻ᵀ, S = L Lᵀ, and r standard normal
+    The error is tested with random motions of the same energy in every direction, which contain
+    a share of the worst one. For a matrix E = L⁻¹ (S - S*) L⁻ᵀ, S = L Lᵀ, and r standard normal
     vectors ω
 
        ‖E‖ <= 10 √(2/π) max ‖E ω‖  but for a probability of 10⁻ʳ
@@ -23,10 +23,10 @@ namespace cattaneo
 class StiffnessProbes
 {
 public:
-   /// @a S: the stiffness in global components, as it is used. @a motions: orthonormal columns
-   /// that it does not resist.
+   /// @a S is the stiffness in global components, as it is used. @a motions are orthonormal
+   /// columns that it does not resist.
    StiffnessProbes(const Eigen::MatrixXd &S, const Eigen::MatrixXd &motions);
-   /// Motions of the contact, one a column; none if S has lost its definiteness.
+   /// Motions of the contact, one a column; none if S is no longer definite.
    const Eigen::MatrixXd &motions() const { return u_; }
    /// The bound from differences of forces at these motions, one in each column: 10 √(2/π) max
    /// ‖L⁻¹ d‖; infinite without motions.

@@ -8,8 +8,8 @@ namespace cattaneo
 
 #ifdef MFEM_USE_MPI
 
-/// What condense_by_factor() finds, of a body on several ranks by conjugate gradients; `alike`
-/// is what an equal body was condensed by, or null. InputError as there, on all ranks.
+/// The result of condense_by_factor() for a body on several ranks, by conjugate gradients.
+/// `alike` is the solver of an equal body, or null. InputError as there, on all ranks.
 Condensation condense_by_iterations(const ElasticBody &body, const ContactLine &line,
                                     const ContactDofs &dofs, int max_iterations,
                                     const BodySolver *alike);

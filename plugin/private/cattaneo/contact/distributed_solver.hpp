@@ -21,12 +21,12 @@ namespace cattaneo
 class DistributedSolver
 {
 public:
-   /// `contact`: global true dofs. InputError, on all ranks, if a solve needs more than
+   /// `contact` are global true dofs. InputError, on all ranks, if a solve needs more than
    /// `max_iterations`.
    DistributedSolver(const ElasticBody &body, const std::vector<int> &contact,
                      int max_iterations);
 
-   /// Schur complement of the contact dofs, the same bits on every rank.
+   /// Schur complement of the contact dofs, with the same bits on every rank.
    Eigen::MatrixXd schur(Counters &counters) const;
    ClampedLoads loads(const std::vector<BodyLoad> &patterns, Counters &counters) const;
    /// Field on this rank's true dofs for contact displacements in global components, forces and
@@ -37,7 +37,7 @@ public:
    Eigen::VectorXd forces(const Eigen::VectorXd &field) const;
    /// True dofs of this rank.
    int size() const { return static_cast<int>(held_.size()); }
-   /// True on every rank if the other stands for an equal operator, supports and contact.
+   /// True on every rank if the other solver has an equal operator, supports and contact.
    bool equals(const DistributedSolver &other) const;
 
 private:

@@ -19,7 +19,7 @@ struct Card
    std::vector<Value> values;
 };
 
-/// What an elastic *MATERIAL has, isotropic and the same at all temperatures.
+/// An elastic *MATERIAL, isotropic and the same at all temperatures.
 struct DeckMaterial
 {
    double young = 0, poisson = 0;
@@ -37,7 +37,7 @@ struct InputDeck
       Nodes nodes;             ///< corners, then the middles of its sides
       /// 3 or 4 for plane and axisymmetric elements, 2 for trusses, 0 for others.
       std::size_t corners = 0;
-      int section = 0; ///< which *SOLID SECTION it has, from 1; 0: none
+      int section = 0; ///< number of its *SOLID SECTION, from 1; 0: none
    };
 
    Formulation formulation = Formulation::plane;
@@ -48,7 +48,7 @@ struct InputDeck
    std::vector<Nodes> edges;                                     ///< as outer_edges() has them
    std::map<std::string, std::vector<Nodes>> surfaces;           ///< of these edges
    std::vector<std::string> sections; ///< the names of their materials
-   /// By their names; those that are not isotropic, or not elastic, are not there.
+   /// Materials by name, without those that are not isotropic or not elastic.
    std::map<std::string, DeckMaterial> materials;
    std::vector<Card> cards;
    std::set<std::string> keywords; ///< all that are there
@@ -65,7 +65,7 @@ enum class DeckUse
 struct DeckPart
 {
    std::string name; ///< of an instance, else of a set of elements; empty: there is one body
-   /// If none is named, the one of several instances that has this name.
+   /// The instance to use if there are several and none is named.
    std::string usual = {};
 };
 

@@ -9,8 +9,8 @@
 namespace cattaneo
 {
 
-/// A text file line by line, in UTF-8; a line that is not is taken for Latin-1. What is wrong
-/// with it is said with its name and the line.
+/// Reads a text file line by line, in UTF-8; other lines are read as Latin-1. Errors have its
+/// name and the line.
 class LineReader
 {
 public:
@@ -23,8 +23,8 @@ public:
    const std::string &file() const { return file_; }
    int line_number() const { return number_; }
 
-   /// Fields of the line between commas, without blanks around them; one that ends the line
-   /// after a comma is left out if it is empty.
+   /// Fields of the line between commas, without blanks around them. An empty field at the end
+   /// of the line is left out.
    std::vector<std::string_view> fields() const;
    /// What stands between blanks, commas and stars (of a comment).
    std::vector<std::string_view> words() const;

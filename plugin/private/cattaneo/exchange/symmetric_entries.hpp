@@ -8,8 +8,8 @@
 namespace cattaneo
 {
 
-/// Entries of a symmetric matrix as a file has them: all of them, or one of each two that
-/// mirror each other, in whatever order the file has its rows.
+/// Entries of a symmetric matrix as a file has them: all, or one of each pair of mirrored ones,
+/// in any order of the rows.
 class SymmetricEntries
 {
 public:
