@@ -58,8 +58,8 @@ std::vector<double> line(int elements, double span, double ratio)
    return ends;
 }
 
-/// Ends of elements over |x| < span whose lengths follow one wave of a cosine with its largest
-/// value at `about` (from -1 to 1): from 1 - wave to 1 + wave of their mean.
+/// Ends of elements over |x| < span whose lengths follow one wave of a cosine, from 1 - wave to
+/// 1 + wave of their mean, with the largest one at `about` (from -1 to 1).
 std::vector<double> wave(int elements, double span, double wave, double about)
 {
    std::vector<double> ends;

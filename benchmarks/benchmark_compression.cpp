@@ -31,7 +31,7 @@ namespace
 {
 
 constexpr double accuracies[] = {1e-8, 1e-12};
-/// Leaves of the tree, in unknowns: below that a block is not worth its factors.
+/// Size of the tree's leaves, in unknowns; smaller blocks are not worth their factors.
 constexpr double leaf = 64;
 
 /// Unknowns node by node along the contact, scaled to a diagonal of ones.
@@ -82,8 +82,8 @@ ArrayXd singular_values(const MatrixXd &block)
    }
 }
 
-/// Largest ranks of a tree's blocks of one size: for each accuracy beside the diagonal and
-/// apart from it, -1 if there is no such block.
+/// Largest ranks of a tree's blocks of one size, for each accuracy, beside the diagonal and
+/// away from it; -1 if there is no such block.
 struct BlockRanks
 {
    long beside[2] = {-1, -1}, apart[2] = {-1, -1};

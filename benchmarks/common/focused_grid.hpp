@@ -2,8 +2,8 @@
 
 #include <vector>
 
-/// A stretch of a contact line, or a point of it (lo = hi), that asks for nodes `spacing`
-/// apart.
+/// A part of a contact line, or a point of it (lo = hi), that needs nodes at a distance
+/// `spacing`.
 struct Focus
 {
    double lo, hi, spacing;
@@ -15,5 +15,6 @@ struct Focus
 std::vector<double> focused_grid(double from, double to, int order, double growth,
                                  const std::vector<Focus> &foci);
 
-/// Grid lines on both sides of 0 from those that begin at 0, symmetric to the last bit.
+/// Grid lines on both sides of 0, from the given ones on one side, which begin at 0. Symmetric
+/// to the last bit.
 std::vector<double> mirrored(const std::vector<double> &grid);

@@ -135,7 +135,7 @@ double lubkin_torque(double c)
 }
 
 /// Two bodies that meet in r < 1 with a gap r²/(2 R), pressed and turned at their far ends.
-/// Radius, torque and stick radius are compared for the force and the rotation that came out.
+/// Radius, torque and stick radius are compared with those of the resulting force and rotation.
 Answer lubkin(const Resolution &r)
 {
    const double f = 0.3, c = 0.5;

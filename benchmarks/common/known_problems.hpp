@@ -29,7 +29,7 @@ struct Resolution
 {
    Family family = Family::uniform;
    int order = 2;
-   double spacing = 0;             ///< of the contact nodes where nothing asks for less
+   double spacing = 0;             ///< spacing of the contact nodes where nothing needs less
    double finest = 1;              ///< spacing toward the edges over `spacing`
    double corner = 1;              ///< the same toward corners
    double growth = 1;              ///< from node to node
@@ -38,7 +38,7 @@ struct Resolution
 
    double element_growth() const { return 1 + order * (growth - 1); }
 
-   /// Where nodes are to be close: in [lo, hi] `spacing`, and less at corners and edges.
+   /// Where nodes must be close: `spacing` in [lo, hi], and less at corners and edges.
    std::vector<Focus> foci(double lo, double hi, const std::vector<double> &corners = {}) const
    {
       std::vector<Focus> all{{lo, hi, spacing}};
@@ -65,7 +65,7 @@ struct Quantity
 {
    const char *name;
    double exact; ///< closed form; NaN: none, the reference is computed
-   double scale; ///< errors are over this; 0: over the reference
+   double scale; ///< errors are relative to this; 0: to the reference
    double known = none, known_error = none; ///< independent reference value and its ±
 };
 
@@ -87,7 +87,7 @@ const std::vector<Problem> &problems();
 /// Level 0 is the coarsest, each next one has about half the spacing.
 Resolution resolution(const Problem &problem, Family family, int order, double level);
 
-/// Graded and nested meshes take a coarse run first, where there are edges to be found.
+/// Graded and nested meshes need a coarse run first if there are edges to find.
 Answer solve(const Problem &problem, Resolution resolution);
 
 } // namespace known

@@ -17,8 +17,8 @@ struct Measured
 
 Measured in_own_process(const std::function<std::vector<double>()> &work);
 
-/// Runs a program with its arguments to its end, without what it prints; throws InputError if
-/// it fails. @param threads of its linear algebra
+/// Runs a program with its arguments to its end, without its output. Throws InputError if it
+/// fails. @param threads of its linear algebra
 Measured whole_process(const std::vector<std::string> &command, int threads = 1);
 
 /// Path of a miniapp that was built beside this benchmark.

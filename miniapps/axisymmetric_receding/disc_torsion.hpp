@@ -26,17 +26,18 @@ struct Disc
    Extent extent(const cattaneo::ReducedProblem &of, const cattaneo::ContactState &state) const;
 };
 
-/// T_s from the pressure of the contact without friction: steady spinning leaves none to the
-/// radial direction.
+/// T_s from the pressure of the contact without friction, because in steady spinning no
+/// friction is left for the radial direction.
 void spinning_limit(Study &study, Disc &disc);
 
-/// Twists to each of the wanted torques (ascending), and on past the greatest; or to each of
-/// the wanted multipliers.
+/// Twists to each of the wanted torques (ascending), and past the greatest torque, or to each
+/// of the wanted multipliers.
 void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
            const std::vector<double> &wanted);
 
-/** Cycles of the twist between ± what first brings the torque to `amplitude` T_s. Rotation is
-    held between its limits, so that the torque may relax; torque is, under --twist traction. */
+/** Cycles of the twist between ± the value at which the torque first reaches `amplitude` T_s.
+    These are limits of the rotation, so that the torque may relax; with --twist traction they
+    are limits of the torque. */
 void cycle(Study &study, Disc &disc, Run &run, double amplitude, int cycles);
 
 } // namespace miniapp

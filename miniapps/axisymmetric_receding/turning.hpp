@@ -5,7 +5,7 @@
 namespace miniapp
 {
 
-/// Torque that an axisymmetric contact passes on: Σ r q_θ, opposed to its slip.
+/// Torque that an axisymmetric contact transmits: Σ r q_θ, opposed to its slip.
 double torque(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state);
 
 /// How far a twist has gone.
@@ -36,10 +36,10 @@ public:
       multiplier
    };
 
-   /// Before the twist: what it would do to the bonded disc is its first stiffness.
+   /// To be called before the twist: the response of the bonded disc is the first stiffness.
    Turned untwisted(const cattaneo::ContactState &loaded) const;
-   /// On until the torque or the multiplier has a value, or the torque has passed its maximum
-   /// (by itself not an end for the multiplier).
+   /// Goes on until the torque or the multiplier has a value, or the torque has passed its
+   /// maximum (which does not stop a search for a multiplier).
    void on(Turned &now, Stop stop, double value, const cattaneo::MarchObserver &observe = {});
    /// Rotation that the twist does its work on.
    double rotation(const cattaneo::ContactState &state) const;

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// What is drawn of a contact line or of a load, at most.
+/// Most marks that are drawn for a contact line or a load.
 constexpr Index most_arrows = 60;
 
 /// A rectangle that holds points.
@@ -31,7 +31,7 @@ struct Frame
       high = high.cwiseMax(point);
    }
    double size() const { return (high - low).maxCoeff(); }
-   /// With at least half the height of its width, or the other way round.
+   /// Widened to at least half as high as wide, or the other way round.
    void round()
    {
       const Vector2d middle = 0.5 * (low + high),
@@ -191,7 +191,7 @@ void list_loads(Study &study, const Scene &scene)
    }
 }
 
-/// Edges of the boundary as pieces of straight lines; curved ones in four.
+/// Edges of the boundary as straight lines; curved ones in four pieces.
 void draw_boundary(Panel &panel, const std::string &item, mfem::Mesh &mesh)
 {
    for (int e = 0; e < mesh.GetNBE(); ++e)
@@ -240,8 +240,8 @@ void draw_normals(Panel &panel, const Reduction &reduction, double arrow)
          const Vector2d at = face.position.row(i), t = face.tangent.row(i), normal(-t[1], t[0]);
          if (i % stride == 0) { panel.item("normal", at, arrow * normal); }
          if (face.tied) { continue; }
-         // What the node faces: of nodes that match the other body's, else the point across the
-         // gap.
+         // The point that the node faces: the matching node of the other body, else the point
+         // across the gap.
          Vector2d partner = at - reduction.problem.gap[face.first + i] * normal;
          if (face.matching && reduction.bodies.size() == 2)
          {

@@ -7,9 +7,9 @@ namespace miniapp
 
 class Study;
 
-/** What a study is about to compute with, for the option --check: tables of the bodies with
-    their supports, of the contact lines and of the loads with their resultants, and two panels,
-    of all and of the contact, with normals, partners, gaps, supports and loads. InputError on
+/** Shows the input of a study, for the option --check: tables of the bodies with their
+    supports, of the contact lines and of the loads with their resultants. Two panels, of the
+    whole and of the contact, show normals, partners, gaps, supports and loads. InputError on
     several ranks. */
 void show(Study &study, const Scene &scene);
 

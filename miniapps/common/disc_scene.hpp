@@ -33,7 +33,8 @@ struct DiscOptions
    std::vector<double> load_radii = {2.5}; ///< a, in t
    double domain = 0; ///< R, in t; 0: the half-space itself, without a mesh
    int order = 2;
-   double spacing = 0.02; ///< of the contact nodes (rounded so that elements end at b), in t
+   double spacing =
+      0.02; ///< spacing of the contact nodes (rounded so that elements end at b), in t
    /// Growth of the elements away from the contact. Those of the disc are at most 0.4 (growth -
    /// 1) t high.
    double growth = 0; ///< 0: the usual (element_growth())

@@ -90,9 +90,9 @@ unload(Study &study, Run &run, const Receding &receding, const Unloading &wanted
 void cycle_the_load(Study &study, Run &run, const Receding &receding,
                     const std::vector<double> &lowest, int cycles);
 
-/** Where between two values of a parameter a figure changes its sign, found among ever closer
-    ones, each time in the first interval from `from` on; NaN if it does in none.
-    @param figures of parameters */
+/** Value of a parameter at which a figure changes its sign, found among ever closer values,
+    each time in the first interval from `from` on. NaN if there is no change. @param figures of
+    parameters */
 double changing(double from, double to,
                 const std::function<std::vector<double>(const std::vector<double> &)> &figures);
 

@@ -6,12 +6,12 @@
 namespace miniapp
 {
 
-/** Tables of what supports, guides, prescribed displacements and obstacles do to each body, and
-    of how well the forces on each body balance.
+/** Tables of the forces of supports, guides, prescribed displacements and obstacles on each
+    body, and of the balance of all forces on it.
 
-    Forces of supports are K u less the loads, without what the contact does to nodes that are
-    held. The balance is that of these, of the loads, and of the resultants of the interfaces
-    where they act: nothing of it is zero by construction. */
+    Forces of supports are K u minus the loads, without the contact forces on held nodes. The
+    balance adds these, the loads, and the resultants of the interfaces at the points where they
+    act. None of it is zero by construction. */
 void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
                       const JointReport &report, const cattaneo::ContactState &state);
 

@@ -113,8 +113,8 @@ std::vector<Index> patterns_of(const std::string &names, const ReducedProblem &p
    return found;
 }
 
-/** Variables that add to the multipliers of loads wherever one of them acts, so that their sum
-    stays: none below zero, none by more than `most`. */
+/** Variables that are added to the multipliers of loads wherever one of them acts, with a
+    constant sum. No multiplier falls below zero, and none changes by more than `most`. */
 DesignVariables choose_loads(DesignProblem &design, const DesignChoice &choice)
 {
    const std::vector<Index> loads = patterns_of(choice.loads, design.problem);

@@ -40,8 +40,8 @@ struct DesignVariables
 };
 
 /** Sets variables, bounds and limits of the design, whose problem and cases are known. Each
-    line of contact has variables of its own, measured from its middle, which of a half lies on
-    its plane or axis of symmetry. InputError naming the option. */
+    line of contact has its own variables, measured from its middle, which for half a model lies
+    on the plane or axis of symmetry. InputError naming the option. */
 DesignVariables choose_variables(cattaneo::DesignProblem &design, const DesignChoice &choice);
 
 } // namespace miniapp

@@ -90,8 +90,8 @@ private:
    std::vector<double> bulk_;
 };
 
-/** Places along the surface over its half-width: a net, and ever closer ones to the edges of
-    the contact, down to half of the depth; stresses change fastest there. */
+/** Places along the surface, over the half-width: a uniform net, and places ever closer to the
+    edges of the contact, down to half of the depth, as stresses change fastest there. */
 std::vector<double> places_along(double depth)
 {
    std::vector<double> places;

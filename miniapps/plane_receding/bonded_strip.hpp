@@ -12,8 +12,8 @@ namespace miniapp
 Eigen::Index nodes_before(const Eigen::VectorXd &x, double at);
 
 /** The bonded strip of an overhang (thesis 5.2): its corner, the friction for full adhesion,
-    its traction ratio. @param others overhangs, load patterns of the problem, to be drawn
-    instead (figure 5.2), with those at which the kind of the strip changes. */
+    its traction ratio. @param others overhangs (load patterns of the problem) to draw in its
+    place (figure 5.2), with those at which the kind of the strip changes. */
 void report_bonded(Study &study, const RecedingOptions &options,
                    const cattaneo::ReducedProblem &problem, double overhang,
                    const std::vector<double> &others);

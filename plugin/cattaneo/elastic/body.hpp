@@ -34,11 +34,10 @@ using StressLaw =
     weights of both signs, or dofs that are no nodal values, and are refused.
 
     Plane: components 0 = x, 1 = y, forces per unit thickness. Axisymmetric: x = r and y = z,
-    components 0 = r, 1 = z, forces on the whole circumference; u_r = 0 on the axis without
-    being asked for. Torsion: the same mesh, but the one component is the twist ψ = u_θ/r: what
-    is fixed or prescribed are angles, and the forces of a pattern are torques. The two
-    decouple, so a body that twists is an axisymmetric and a torsion body. With both, r < 0 is
-    an InputError.
+    components 0 = r, 1 = z, forces on the whole circumference; u_r = 0 on the axis holds by
+    itself. Torsion: the same mesh, but the one component is the twist ψ = u_θ/r: fixed or
+    prescribed values are angles, and the forces of a pattern are torques. The two decouple, so
+    a body that twists is an axisymmetric and a torsion body. With both, r < 0 is an InputError.
 
     Everything that is named by a BoundaryPart throws InputError if the attribute does not exist
     or nothing lies in the interval.

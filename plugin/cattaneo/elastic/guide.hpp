@@ -7,10 +7,10 @@
 namespace cattaneo
 {
 
-/** How a part of a boundary moves that is a rigid block: a grip, a stiff plate, a bearing. Its
-    motions are along x, along y and about its centre; about an axis of revolution the one along
-    it alone is left. The missing one of both is the conjugate of the load: the displacement of
-    a force, the reaction of a displacement. */
+/** Motion of a part of a boundary that moves as a rigid block: a grip, a stiff plate, a
+    bearing. Its motions are along x, along y and about its centre; about an axis of revolution
+    only the one along the axis. For each motion either the force or the displacement is given
+    as a load. The other one is its conjugate. */
 struct Guide
 {
    /// How it moves in one way.

@@ -9,25 +9,25 @@
 namespace cattaneo
 {
 
-/** A bolt that is tightened to a force: before it is tightened it does nothing, while it is
-    tightened it pulls with the force of the tool, afterwards it is a spring. In a load history
-    the multiplier of its load is its force at the end of the piece in which that multiplier
-    changes, in units of the load's forces: 1 if these are those of the preload. Where the
-    multiplier stays nobody turns the nut, and the force changes as the joint asks it to. */
+/** A bolt that is tightened to a force. Before tightening it does nothing, during tightening it
+    pulls with the force of the tool, afterwards it is a spring. When the multiplier of its load
+    changes in a piece of the load history, the multiplier at the end of the piece is the bolt's
+    force, in units of the load's forces: 1 if these are those of the preload. When the
+    multiplier stays, nobody turns the nut, and the force follows from the joint. */
 struct Bolt
 {
    std::string load;     ///< of forces on its two ends that are each other's opposite
    double stiffness = 1; ///< as Reduction::add_shank() has it, > 0
 };
 
-/** Bolts that are tightened in the order of a load history, each losing what the others'
-    tightening takes from it.
+/** Bolts that are tightened in the order of a load history. Each loses force while others are
+    tightened.
 
-    A bolt that is tightened is a force, those that were tightened before are shanks, the others
-    are not there: each part of the history has its own reduced problem, and nothing is found by
-    iterations. States are those of problem(), in which all bolts are shanks. The multiplier of
-    a bolt's load is its pretension T there: with N the force and g how far the ends have come
-    together N = T - stiffness · g. */
+    The bolt that is being tightened is a force, those tightened before are shanks, and the
+    others do not act. Each part of the history has its own reduced problem, so that no
+    iterations are needed. States are those of problem(), in which all bolts are shanks. There
+    the multiplier of a bolt's load is its pretension T: N = T - stiffness · g, with N the force
+    and g the approach of the bolt's ends. */
 class BoltedJoint
 {
 public:
@@ -38,20 +38,21 @@ public:
    BoltedJoint(Reduction loose, std::vector<Bolt> bolts,
                std::function<void(Reduction &)> complete = {});
 
-   /// With the shanks of all bolts: for fields, and whatever goes on from the tightened joint.
+   /// The reduction with the shanks of all bolts, for fields and for all that follows from the
+   /// tightened joint.
    Reduction tightened() const;
    /// The problem of tightened().
    const ReducedProblem &problem() const { return problem_; }
-   /// Which bolts there are.
+   /// The bolts.
    const std::vector<Bolt> &bolts() const { return bolts_; }
    /// Number of a bolt's load among those of the problem.
    Eigen::Index load(std::size_t bolt) const;
    /// Forces of the bolts in a state of problem(), in units of their loads' forces.
    Eigen::VectorXd forces(const ContactState &state) const;
 
-   /** As march(), of a history in which multipliers of bolts are forces, from a state of
-       problem(). A bolt that carries nothing any more and would push ends the march: its
-       status is `stopped`, the state and `event_time` are those at which its force is zero.
+   /** Like march(), for a history in which multipliers of bolts are forces, from a state of
+       problem(). The march ends when a bolt would push: its status is `stopped`, and the state
+       and `event_time` are those at which the bolt's force is zero.
 
        InputError if a bolt is never tightened, is loosened at the end, is tightened to a
        negative force or within the cycle. */

@@ -7,8 +7,8 @@ namespace cattaneo
 {
 
 /** LU factors of a dense square matrix, with row pivoting: LAPACK's, or Eigen's if built
-    without it. Rows and columns of very different size (1e4) are brought to one, by powers of
-    two, before a pivot is chosen. */
+    without it. Rows and columns of very different size (1e4) are scaled to size one, by powers
+    of two, before a pivot is chosen. */
 class DenseLU
 {
 public:

@@ -6,10 +6,10 @@
 namespace cattaneo
 {
 
-/** The least f(x) under low ≤ x ≤ high and least ≤ c(x) ≤ most, as Ipopt asks for it. What has
-    second derivatives is f + λ·c. Matrices are sparse: their places are asked for once, with
-    `values` null, and afterwards the values in the same order. Functions that return false have
-    no value there. */
+/** Minimise f(x) under low ≤ x ≤ high and least ≤ c(x) ≤ most, in Ipopt's form. Second
+    derivatives are those of f + λ·c. Matrices are sparse: Ipopt calls once with `values` null
+    for the places, and afterwards for the values in the same order. A function returns false if
+    it has no value at x. */
 class NonlinearProgramme
 {
 public:

@@ -3,17 +3,17 @@
 namespace cattaneo
 {
 
-/** While one of these lives that was made for little work, OpenBLAS does it with one thread.
-    Threads wait for each other several times in a call: to share little work out costs more
-   than the work, and where other programs have the processors, many times as much. The bits of
-   what is done do not depend on the number of threads then.
+/** While an object for little work exists, OpenBLAS uses one thread. Threads wait for each
+    other several times in a call. Sharing little work costs more than the work itself, and many
+    times as much if other programs use the processors. The bits of the results then do not
+    depend on the number of threads.
 
-    The number of threads is the process's own, so that others who work meanwhile have one as
-    well. Nothing happens with another BLAS. */
+    The setting holds for the whole process, so that other work at the same time has one thread
+    as well. With another BLAS nothing happens. */
 class OneThread
 {
 public:
-   /// `multiplications` of what is done meanwhile.
+   /// @a multiplications is the amount of the work.
    explicit OneThread(double multiplications);
    ~OneThread();
    OneThread(const OneThread &) = delete;

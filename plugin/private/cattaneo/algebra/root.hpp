@@ -8,10 +8,10 @@ namespace cattaneo
 {
 
 /** Root of a continuous function between @a a and @a b, where its signs differ (the Illinois
-    variant of false position: never leaves the bracket, converges superlinearly). Where they do
-    not, round-off may have moved a root beyond an end: that end, if the function is there below
-    1e-6 of what it is at the other, or if they are as close together. InputError otherwise; NaN
-    if the function is so at an end. */
+    variant of false position: never leaves the bracket, converges superlinearly). If the signs
+    are equal, round-off may have moved a root beyond an end. That end is returned if the
+    function there is below 1e-6 of its value at the other end, or if the ends are as close
+    together. InputError otherwise. NaN if the function is NaN at an end. */
 template <class Function>
 double find_root(const Function &function, double a, double b)
 {

@@ -25,10 +25,9 @@ private:
    Eigen::LDLT<Eigen::MatrixXd> ldlt_; ///< with springs on the null space
 };
 
-/** Orthonormal basis of what a symmetric positive semidefinite matrix does not resist by more
-    than the rounding of its entries: the search for those who know the matrix and nothing else.
-    Costs two Cholesky factors, of a small matrix, or one with many soft motions, a pivoted
-    LDLᵀ. */
+/** Orthonormal basis of the vectors that a symmetric positive semidefinite matrix resists by no
+    more than the rounding of its entries, for callers that know only the matrix. Costs two
+    Cholesky factors; for a small matrix, or one with many soft motions, a pivoted LDLᵀ. */
 Eigen::MatrixXd null_space(const Eigen::MatrixXd &A);
 
 /// Does a symmetric positive semidefinite matrix clearly resist everything but these motions

@@ -7,8 +7,8 @@
 namespace cattaneo
 {
 
-/** The least f(y) under low ≤ y ≤ high and least ≤ c(y) ≤ most, all of order one. Bounds of
-    2e19 and more are none. */
+/** Minimise f(y) under low ≤ y ≤ high and least ≤ c(y) ≤ most, all of order one. Bounds of 2e19
+    and more count as infinite. */
 struct SmoothProgramme
 {
    Eigen::VectorXd low, high, least, most;

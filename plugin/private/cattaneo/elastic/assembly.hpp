@@ -9,9 +9,9 @@
 namespace cattaneo
 {
 
-/** The stiffness of an isotropic body on the vdofs of an H1 space ordered byVDIM, on this rank
-    and before hanging nodes are constrained: what an mfem::BilinearForm of the same integrators
-    would give, to round-off and symmetric to the last bit, several times faster:
+/** Stiffness of an isotropic body on the vdofs of an H1 space ordered byVDIM, on this rank and
+    before hanging nodes are constrained. To round-off it is that of an mfem::BilinearForm with
+    the same integrators. It is symmetric to the last bit, and several times faster:
 
     - the sparsity is that of the nodes, built once; each pair of nodes adds its 2×2 block;
     - all points of an element are integrated at once, as products of small matrices;

@@ -11,8 +11,8 @@ namespace cattaneo
 {
 
 /** One boundary element as a parametrised curve x(s), 0 <= s <= 1 (the element's own reference
-    coordinate), that knows on which side the body is. The side is that of the mesh element
-    which the boundary element is an edge of, however either is numbered or oriented. */
+    coordinate), with the side of the body. That is the side of the mesh element to which the
+    edge belongs, however both are numbered or oriented. */
 class BoundaryEdge
 {
 public:
