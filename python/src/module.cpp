@@ -14,10 +14,11 @@ namespace
 
 void bind_common(nb::module_ &m)
 {
-   static const nb::object input_error = nb::steal(PyErr_NewExceptionWithDoc(
-      "cattaneo._core.InputError",
-      "Bad input: one sentence with what, where, the value, and what is allowed.",
-      PyExc_ValueError, nullptr));
+   static const nb::object input_error =
+      nb::steal(PyErr_NewExceptionWithDoc("cattaneo._core.InputError",
+                                          "Bad input. The message is one sentence: what is "
+                                          "wrong, where, the value, and what is allowed.",
+                                          PyExc_ValueError, nullptr));
    m.attr("InputError") = input_error;
    // A sentence may quote a file whose letters are no UTF-8.
    nb::register_exception_translator(
@@ -37,12 +38,13 @@ void bind_common(nb::module_ &m)
       });
    m.attr("OutcomeWarning") = nb::steal(PyErr_NewExceptionWithDoc(
       "cattaneo._core.OutcomeWarning",
-      "An outcome that a script should not pass over: a march that did not converge, a limit "
-      "that is not proven. The report has the same in `status` and `message`.",
+      "A warning of an outcome that a script should not ignore: a march that did not converge, "
+      "or a limit that is not proven. `status` and `message` of the report tell the same.",
       PyExc_RuntimeWarning, nullptr));
 
    nb::class_<Progress>(m, "Progress", "How far long work has come.")
-      .def_ro("share", &Progress::share, "of it that is done, 0 to 1; nan: not known")
+      .def_ro("share", &Progress::share,
+              "share of the work that is done, 0 to 1; nan: not known")
       .def_ro("steps", &Progress::steps, "increments of a march, iterations of a limit")
       .def_ro("time", &Progress::time, "of a march, in its load history")
       .def_ro("seconds", &Progress::seconds, "since it began");
@@ -51,16 +53,14 @@ void bind_common(nb::module_ &m)
       .def_ro("name", &BlasKernels::name,
               "OpenBLAS's own name, as 'Haswell'; '' with another BLAS or with none")
       .def_ro("better", &BlasKernels::better,
-              "of safe ones that are far faster on this processor; '': there are none")
+              "name of safe ones that are far faster on this processor; '': there are none")
       .def_prop_ro("statement", &BlasKernels::statement,
-                   "one sentence, with what to do where others are far faster")
+                   "one sentence; it tells what to do if others are far faster")
       .def("__repr__", &BlasKernels::statement);
-   m.def(
-      "blas_kernels", &blas_kernels,
-      "The kernels of OpenBLAS that work in this process. It chooses them as it is loaded, by "
-      "the name of the processor; the environment variable OPENBLAS_CORETYPE, set before "
-      "Python "
-      "starts, chooses others.");
+   m.def("blas_kernels", &blas_kernels,
+         "The kernels of OpenBLAS that work in this process. OpenBLAS chooses them when it is "
+         "loaded, by the name of the processor. The environment variable OPENBLAS_CORETYPE, "
+         "set before Python starts, chooses others.");
    nb::class_<Counters> counters(m, "Counters",
                                  "How often each expensive act was done: dict(counters).");
    counters.def(

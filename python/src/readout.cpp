@@ -70,18 +70,19 @@ void bind_zones(nb::module_ &m)
 {
    nb::class_<ZoneBorder>(m, "ZoneBorder", "A point on the contact line found between nodes.")
       .def_ro("position", &ZoneBorder::position, "arc length")
-      .def_ro(
-         "error", &ZoneBorder::error,
-         "estimate of the distance to the finest mesh's, no bound; 0 at an end of the line")
+      .def_ro("error", &ZoneBorder::error,
+              "estimate of the distance from the border on the finest mesh, no bound; 0 at an "
+              "end of the line")
       .def("__float__", [](const ZoneBorder &self) { return self.position; })
       .def("__repr__",
            [](const ZoneBorder &self) { return with_error(self.position, self.error); });
-   nb::class_<NamedZone>(m, "Zone", "A run of contact nodes in one state, or in contact.")
+   nb::class_<NamedZone>(m, "Zone", "Neighbouring contact nodes in one state, or in contact.")
       .def_prop_ro(
          "state", [](const NamedZone &self) { return self.state; },
          nb::sig("def state(self) -> NodeState | None"),
-         "of all its nodes; None: they are in contact, whatever slips")
-      .def_ro("interface", &NamedZone::interface, "its name, '' where the problem knows none")
+         "state of all its nodes; None: they are in contact, stick or slip")
+      .def_ro("interface", &NamedZone::interface,
+              "name of its interface, '' if the problem has none")
       .def_prop_ro(
          "from_", [](const NamedZone &self) { return self.zone.from; }, "first end")
       .def_prop_ro(
@@ -91,10 +92,10 @@ void bind_zones(nb::module_ &m)
          "number of its first node")
       .def_prop_ro(
          "last", [](const NamedZone &self) { return self.zone.last; },
-         "of its last node; less than `first`: there is no such zone")
+         "number of its last node; less than `first`: there is no such zone")
       .def_prop_ro(
          "chain", [](const NamedZone &self) { return self.zone.chain; },
-         "index in problem.chains of the line that it is on")
+         "index of its line in problem.chains")
       .def_prop_ro(
          "width",
          [](const NamedZone &self)
@@ -108,29 +109,27 @@ void bind_zones(nb::module_ &m)
       { return named(problem, zones(problem, checked(problem, state)), false); },
       arg("problem"), arg("state"),
       "Zones of a state of the problem along its contact lines, in the order of the nodes: "
-      "runs of nodes that stick, slip one way, or are apart.");
+      "neighbouring nodes that stick, slip in one direction, or are apart.");
    m.def(
       "contact_zones",
       [](const ReducedProblem &problem, const ContactState &state)
       { return named(problem, contact_zones(zones(problem, checked(problem, state))), true); },
       arg("problem"), arg("state"),
-      "Stretches of contact in a state of the problem, on each of its lines: runs of nodes "
-      "that "
-      "are pressed, whether they stick or slip.");
+      "Parts of its lines that are in contact in a state of the problem: neighbouring nodes "
+      "that are pressed, whether they stick or slip.");
    m.def(
       "contact_zone",
       [](const ReducedProblem &problem, const ContactState &state)
       { return named(problem, {contact_zone(problem, checked(problem, state))}, true)[0]; },
       arg("problem"), arg("state"),
-      "The widest of contact_zones(), of all lines and interfaces of the problem in this "
-      "state; "
-      "its width is 0 where all nodes are apart.");
+      "The widest of contact_zones(), over all lines and interfaces of the problem in this "
+      "state. Its width is 0 if all nodes are apart.");
    m.def(
       "stick_zone",
       [](const ReducedProblem &problem, const ContactState &state)
       { return named(problem, {stick_zone(problem, checked(problem, state))}, false)[0]; },
       arg("problem"), arg("state"),
-      "The widest zone of stick in a state of the problem; its width is 0 where none sticks.");
+      "The widest zone of stick in a state of the problem. Its width is 0 if no node sticks.");
    m.def(
       "tractions",
       [](const ReducedProblem &problem, Numbers nodal_forces)
@@ -140,8 +139,8 @@ void bind_zones(nb::module_ &m)
          return array(tractions(problem, vector(nodal_forces, "nodal_forces")));
       },
       arg("problem"), arg("nodal_forces"),
-      "Forces over the weights of the problem's nodes. nodal_forces: p, (n,), or q, (c n,), of "
-      "a state.");
+      "Tractions: nodal forces over the weights of the problem's nodes. nodal_forces: p, (n,), "
+      "or q, (c n,), of a state.");
 }
 
 void bind_edges(nb::module_ &m)
@@ -202,8 +201,8 @@ void bind_edges(nb::module_ &m)
          return fit_edge(tractions, settings);
       },
       arg("tractions"), nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
-      "K_N and K_T by least squares. tractions: near the edge, of any program. settings: which "
-      "nodes are fitted.");
+      "K_N and K_T by least squares. tractions: those near the edge, from any program. "
+      "settings: which nodes are fitted.");
 
    nb::class_<ContactEdge>(m, "ContactEdge", "One end of a stretch of contact.")
       .def_ro("position", &ContactEdge::position)
@@ -244,10 +243,10 @@ void bind_edges(nb::module_ &m)
       },
       arg("problem"), arg("pressed"), arg("loaded"), arg("cracked") = "second", nb::kw_only(),
       arg("settings") = FitSettings(), arg("members"),
-      "K_N, K_T and the slip zone at each end of each stretch of contact.\n\npressed: a state "
-      "of the problem after the normal load alone. loaded: at peak load. cracked: the body "
-      "that "
-      "K_T and slip speak of, 'first' or 'second'. settings: which nodes are fitted.");
+      "K_N, K_T and the slip zone at each end of each part in contact.\n\npressed: a state of "
+      "the problem after the normal load alone. loaded: the state at peak load. cracked: the "
+      "body to which K_T and slip refer, 'first' or 'second'. settings: which nodes are "
+      "fitted.");
    m.def(
       "edge_tractions",
       [](const ReducedProblem &problem, const ContactState &state, const ContactEdge &edge,

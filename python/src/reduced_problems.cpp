@@ -173,9 +173,9 @@ void set_numbers(Eigen::VectorXd &to, nb::handle values, const char *what, Index
 
 void bind_reduced_problems(nb::module_ &m)
 {
-   nb::class_<LoadPattern>(m, "LoadPattern",
-                           "Contact forces that a load would cause, per unit multiplier, if no "
-                           "contact node moved.")
+   nb::class_<LoadPattern>(
+      m, "LoadPattern",
+      "Contact forces by a load, per unit multiplier, with the contact nodes clamped.")
       .def(
          "__init__",
          [](LoadPattern *self, const std::string &name, Numbers q, Numbers p,
@@ -187,10 +187,9 @@ void bind_reduced_problems(nb::module_ &m)
             new (self) LoadPattern(std::move(pattern));
          },
          arg("name"), arg("q"), arg("p"), arg("control") = "force",
-         "name: of the load. q: tangential forces of all nodes, (c n,), if none moved, per "
-         "unit "
-         "multiplier. p: normal ones, (n,), compression positive. control: "
-         "'force', or 'displacement' if the multiplier prescribes one.")
+         "name: name of the load. q: tangential forces of all nodes, (c n,), with the nodes "
+         "clamped, per unit multiplier. p: normal ones, (n,), compression positive. control: "
+         "'force', or 'displacement' if the multiplier prescribes a displacement.")
       .def_ro("name", &LoadPattern::name)
       .def_prop_ro("control", [](const LoadPattern &self)
                    { return self.control == Control::force ? "force" : "displacement"; })
@@ -215,7 +214,8 @@ void bind_reduced_problems(nb::module_ &m)
       "    p = B v + C  w + sum of multiplier × p_k\n\n"
       "v slip, w opening, q tangential and p normal nodal forces, compression positive. c "
       "tangential components a node: 1 in the plane, 2 with torsion, 0 without friction.");
-   bind_copies(problem, "Another problem, whose friction and gap are its own.");
+   bind_copies(problem,
+               "A copy whose friction and gap can be changed without those of this problem.");
    problem
       .def(
          "__init__",
@@ -230,17 +230,14 @@ void bind_reduced_problems(nb::module_ &m)
          arg("A"), arg("B"), arg("C"), arg("patterns"), nb::kw_only(), arg("gap") = 0.0,
          arg("friction") = 0.0, arg("weights") = nb::none(), arg("arc_length") = nb::none(),
          arg("position") = nb::none(), arg("H") = nb::none(), arg("rigid_motions") = nb::none(),
-         "A problem made by hand: A (c n, c n), B (n, c n), C (n, n). patterns: its loads.\n"
-         "gap and friction: of each node, or one number.\n"
-         "weights: length or area that each node stands for; tractions and laws of friction "
-         "need them.\n"
-         "arc_length: increasing; with it the nodes follow each other on one line.\n"
-         "position: (n, 2), or (n, 3) of a surface in space.\n"
-         "H: loads by loads, displacements of forces (reactions of displacements) if no "
-         "contact "
-         "node moved; None: not known, conjugates are the contact's part.\n"
-         "rigid_motions: (c n + n, k), all motions (v, w) that nothing resists, columns, where "
-         "they are known; None: they are sought.")
+         "A problem made by hand: A (c n, c n), B (n, c n), C (n, n). patterns: its "
+         "loads.\ngap and friction: a value for each node, or one number.\nweights: length or "
+         "area of each node; tractions and laws of friction need them.\narc_length: "
+         "increasing; with it the nodes follow each other on one line.\nposition: (n, 2), or "
+         "(n, 3) for a surface in space.\nH: loads by loads, the displacements of forces "
+         "(reactions of displacements) with clamped contact nodes; None: not known, conjugates "
+         "are then the contact's part alone.\nrigid_motions: (c n + n, k), all motions (v, w) "
+         "that nothing resists, as columns; None: they are computed.")
       .def_prop_ro("nodes", &Self::nodes, "n")
       .def_prop_ro("components", &Self::components, "c")
       .def_prop_ro("K", viewed(&Self::K), "(c n + n, c n + n), the whole stiffness; no copy")
@@ -265,7 +262,7 @@ void bind_reduced_problems(nb::module_ &m)
          "gap", [](Self &self) { return view<double>(self.gap, nb::find(self)); },
          [](Self &self, Numbers gap) { set_numbers(self.gap, gap, "gap", self.nodes()); },
          nb::for_setter(arg("gap")),
-         "of each node, closed where w + gap = 0; a number sets all of them")
+         "gap of each node, which is closed if w + gap = 0; a number sets all of them")
       .def_prop_rw(
          "friction", [](Self &self) { return view<double>(self.friction, nb::find(self)); },
          [](Self &self, Numbers friction)
@@ -274,15 +271,13 @@ void bind_reduced_problems(nb::module_ &m)
             self.laws.clear();
          },
          nb::for_setter(arg("friction")),
-         "Coulomb coefficient of each node; a number sets all of them. Of another law its "
-         "steepest "
-         "slope, which is not to be changed in place")
-      .def_prop_ro(
-         "laws",
-         each_of(&Self::laws, [](const FrictionLaw &law)
-                 { return std::pair(array(law.forward), array(law.backward)); }),
-         "Of each node, points (p, bound) of nodal forces for slip forward and backward; none: "
-         "Coulomb's law")
+         "Coulomb coefficient of each node; a number sets all of them. With another law it is "
+         "the steepest slope of the law, and must not be changed in place")
+      .def_prop_ro("laws",
+                   each_of(&Self::laws, [](const FrictionLaw &law)
+                           { return std::pair(array(law.forward), array(law.backward)); }),
+                   "For each node points (p, bound) of nodal forces, for slip forward and "
+                   "backward; empty: Coulomb's law")
       .def(
          "set_friction_law",
          [](Self &self, Numbers points, Numbers backward, Numbers nodes)
@@ -301,10 +296,10 @@ void bind_reduced_problems(nb::module_ &m)
             set_friction_law(self, law, chosen);
          },
          arg("points"), arg("backward") = nb::none(), arg("nodes") = nb::none(),
-         "Another law of friction: points (pressure, shear strength) of tractions, (k, 2), of "
-         "a "
-         "polyline from (0, 0) that goes straight on; `backward`: of slip backward, if it is "
-         "another; of these nodes, None: of all. [[1, f]] is Coulomb's law.")
+         "Sets another law of friction. points: (pressure, shear strength), tractions, (k, 2), "
+         "of a polyline from (0, 0) that goes straight on beyond the last point. backward: the "
+         "same for slip backward, if it differs. nodes: where it holds; None: at all nodes. "
+         "[[1, f]] is Coulomb's law.")
       .def_prop_ro(
          "weights", [](const Self &self) { return array(self.weights); },
          "traction = force / weight")
@@ -314,10 +309,10 @@ void bind_reduced_problems(nb::module_ &m)
          "(n, 2), or (n, 3) of a surface in space")
       .def_prop_ro(
          "rim", [](const Self &self) { return array_of_indices(self.rim); },
-         "nodes of a surface beyond which the bodies go on: contact there is cut off")
+         "nodes of a surface beyond which the bodies go on; contact there is cut off")
       .def_prop_ro(
          "dofs", [](const Self &self) { return array<Integers>(self.dofs); },
-         "(n, 2 bodies), rows of each node in each body's stiffness, -1: none")
+         "(n, 2 per body), rows of each node in each body's stiffness, -1: none")
       .def_prop_ro("chains", &chains,
                    nb::sig("def chains(self) -> list[dict[str, typing.Any]]"),
                    "lines that the nodes form")
@@ -332,13 +327,13 @@ void bind_reduced_problems(nb::module_ &m)
          [](const Self &self, const NamedLoads &loads)
          { return array(self.multipliers(loads)); },
          arg("loads"),
-         "loads: multipliers by name. In the order of the patterns, zero for those that are "
-         "not named")
+         "loads: multipliers by name. Returns them in the order of the patterns, with zero for "
+         "loads that are not named")
       .def(
          "clamped_forces",
          [](const Self &self, const NamedLoads &loads)
          { return array(self.clamped_forces(self.multipliers(loads))); },
-         arg("loads"), "{q; p} under loads, multipliers by name, if no node moved")
+         arg("loads"), "{q; p} under loads (multipliers by name), with the nodes clamped")
       .def(
          "validate",
          [](const Self &self)
@@ -346,7 +341,8 @@ void bind_reduced_problems(nb::module_ &m)
             self.validate();
             require_semidefinite(self); // its arrays may be written to
          },
-         "InputError unless it is a contact problem: sizes, symmetry, signs, definiteness.")
+         "InputError unless sizes, symmetry, signs and definiteness are those of a contact "
+         "problem.")
       .def("__repr__", &brief);
 
    m.def(
@@ -362,14 +358,15 @@ void bind_reduced_problems(nb::module_ &m)
       "set_friction",
       [](Self &problem, double coefficient)
       { set_numbers(problem.friction, nb::cast(coefficient), "friction", problem.nodes()); },
-      arg("problem"), arg("coefficient"), "The same coefficient at every node of a problem.");
+      arg("problem"), arg("coefficient"),
+      "Sets the same coefficient of friction at every node of a problem.");
    m.def("absorb_gap", &absorb_gap, arg("problem"),
-         "The equivalent problem without a gap, whose load 'gap' is to be held at 1.");
+         "The equivalent problem without a gap. Its load 'gap' must be held at 1.");
 
    m.def(
       "save", [](const Self &of, File name) { save(of, file(name)); }, arg("of"), arg("file"),
-      "Writes to a file, as JSON that is restored to the last bit. of: a reduced problem, a "
-      "ContactState or a WearState.");
+      "Writes a file, JSON from which all is restored to the last bit. of: a reduced problem, "
+      "a ContactState or a WearState.");
    m.def(
       "save", [](const ContactState &of, File name) { save(of, file(name)); }, arg("of"),
       arg("file"));
@@ -379,14 +376,14 @@ void bind_reduced_problems(nb::module_ &m)
    m.def(
       "load_reduced_problem", [](File name) { return load_reduced_problem(file(name)); },
       arg("file"),
-      "Reads a reduced problem from a file of save(), or of --save of the programs.");
+      "Reads a reduced problem from a file that save(), or a program with --save, wrote.");
    m.def(
       "write_npz",
       [](File name, const Self &of, Sparse M) { write_npz(file(name), of, mass(M)); },
       arg("file"), arg("of"), arg("M") = nb::none(),
       "Writes arrays for programs of joint dynamics to a file that ends with .npz. of: a "
-      "reduced problem or a NodalStiffness, whose K and loads they are. M: its mass, of the "
-      "same rows, dense or sparse.");
+      "reduced problem or a NodalStiffness, with K and loads. M: its mass matrix, of the same "
+      "rows, dense or sparse.");
 
    m.def(
       "write_npz",
@@ -394,14 +391,15 @@ void bind_reduced_problems(nb::module_ &m)
       arg("file"), arg("of"), arg("M") = nb::none());
 
    nb::class_<CriticalFriction>(m, "CriticalFriction",
-                                "Coefficients of friction at which a contact changes its "
-                                "character, whatever its loads.")
-      .def_ro("node", &CriticalFriction::node,
-              "above it the rate problem of the weakest node alone has no unique answer")
+                                "Coefficients of friction at which the character of a contact "
+                                "changes, whatever the loads.")
+      .def_ro(
+         "node", &CriticalFriction::node,
+         "with more friction the rate problem of the weakest node alone has no unique answer")
       .def_ro("weakest_node", &CriticalFriction::weakest_node)
       .def_ro("locking", &CriticalFriction::locking, "above it the contact can lock itself")
       .def_ro("unique_below", &CriticalFriction::unique_below,
-              "below it there is at most one answer, proven")
+              "with less friction there is at most one answer (proven)")
       .def("__repr__",
            [](const CriticalFriction &self)
            {
@@ -420,8 +418,8 @@ void bind_reduced_problems(nb::module_ &m)
          return unlocked([&] { return critical_friction(copy); });
       },
       arg("problem"),
-      "The coefficients at which the contact of a problem changes its character, of its "
-      "stiffness alone.");
+      "The coefficients of friction at which the character of a problem's contact changes, by "
+      "its stiffness alone.");
    m.def(
       "can_lock", [](const Self &problem) { return can_lock(problem); }, arg("problem"),
       "Can the contact of a problem lock itself with the friction it has?");

@@ -99,8 +99,8 @@ void bind_reductions(nb::module_ &m)
       [](const ContactLine &line1, const ContactLine &line2, double tolerance)
       { return pair_lines(line1, line2, finite(tolerance, "tolerance")); },
       arg("line1"), arg("line2"), arg("tolerance") = 1e-6,
-      "Pairs the nodes of line1 with those of line2 that face them, one to one. tolerance: of "
-      "the offset along the tangent, in edge lengths.");
+      "Pairs the nodes of line1 with those of line2 that face them, one to one. tolerance: "
+      "largest offset along the tangent, in edge lengths.");
 
    nb::class_<Interface>(m, "Interface",
                          "Where two bodies may touch, or a body and a rigid obstacle, or two "
@@ -126,15 +126,14 @@ void bind_reductions(nb::module_ &m)
          arg("name"), arg("first"), arg("second") = nb::none(), nb::kw_only(),
          arg("slave") = "coarser", arg("gap") = nb::none(), arg("most_overlap") = 0.1,
          arg("tied") = false, arg("pairing") = nb::none(),
-         "name: what tables and sentences call it.\n"
-         "first, second: (number of the body, its line); no second: a rigid obstacle; of a "
-         "half-plane the number alone.\n"
-         "slave: which side carries the nodes: 'coarser', 'finer', 'first' or 'second'.\n"
-         "gap: a function of (x, y) or a number instead of the geometry's.\n"
-         "most_overlap: of the geometry, in lengths of the slave's elements.\n"
-         "tied: joined whatever happens, without nodes in the problem; see "
-         "Reduction.tied_forces().\n"
-         "pairing: nodes one to one, of pair_lines(), instead of any that face each other.")
+         "name: its name in tables and sentences.\nfirst, second: (number of the body, its "
+         "line); without second: a rigid obstacle; for a half-plane the number alone.\nslave: "
+         "the side that carries the nodes: 'coarser', 'finer', 'first' or 'second'.\ngap: a "
+         "function of (x, y) or a number, instead of the gap of the geometry.\nmost_overlap: "
+         "largest accepted overlap of the geometry, in lengths of the slave's elements.\ntied: "
+         "joined permanently, without nodes in the problem; see "
+         "Reduction.tied_forces().\npairing: nodes one to one, from pair_lines(); without it "
+         "nodes need not match.")
       .def_ro("name", &Interface::name)
       .def("__repr__",
            [](const Interface &self)
@@ -154,7 +153,8 @@ void bind_reductions(nb::module_ &m)
       .def_prop_ro(
          "bodies",
          [](const InterfaceReport &self) { return std::pair(self.bodies[0], self.bodies[1]); },
-         "whose nodes it has, and whose face them; -1: a rigid obstacle")
+         "number of the body that has the nodes, and of the one that faces them; -1: a rigid "
+         "obstacle")
       .def_ro("first", &InterfaceReport::first)
       .def_ro("nodes", &InterfaceReport::nodes)
       .def_ro("matching", &InterfaceReport::matching)
@@ -162,7 +162,7 @@ void bind_reductions(nb::module_ &m)
                    "places of nodes that nothing faces")
       .def_prop_ro("without_row", each_of(&InterfaceReport::without_row, &xy))
       .def_ro("left_out", &InterfaceReport::left_out,
-              "length that is faced but that no node stands for")
+              "length that is faced but belongs to no node")
       .def_ro("arm", &InterfaceReport::arm, "moment left by a normal force of 1")
       .def_prop_ro(
          "turn", [](const InterfaceReport &self) { return array(Eigen::VectorXd(self.turn)); },
@@ -180,8 +180,9 @@ void bind_reductions(nb::module_ &m)
            });
 
    using Self = Reduction;
-   nb::class_<Self>(m, "Reduction",
-                    "A reduced problem with the way back to the fields of its bodies.")
+   nb::class_<Self>(
+      m, "Reduction",
+      "A reduced problem, from whose states the fields of its bodies can be recovered.")
       .def_prop_ro(
          "problem", [](Self &self) -> ReducedProblem & { return self.problem; },
          nb::rv_policy::reference_internal)
@@ -204,8 +205,8 @@ void bind_reductions(nb::module_ &m)
             return array(self.displacement(body, state.v, state.w, state.multipliers));
          },
          arg("body"), arg("state"),
-         "Displacements of all rows of the stiffness of a body in a state of `problem`; one "
-         "solve. body: its number, from 0.")
+         "Displacements of all rows of the stiffness of a body in a state of `problem`. Costs "
+         "one solve. body: its number, from 0.")
       .def(
          "tied_forces",
          [](Self &self, const ContactState &state)
@@ -214,8 +215,8 @@ void bind_reductions(nb::module_ &m)
             return array(self.tied_forces(state.v, state.w, state.multipliers));
          },
          arg("state"),
-         "Nodal forces {q; p} that tied interfaces transfer in a state of `problem`, all "
-         "tangential ones first, of their nodes in the order of `interfaces`.")
+         "Nodal forces {q; p} that tied interfaces transfer in a state of `problem`: all "
+         "tangential ones first, of the interfaces' nodes in the order of `interfaces`.")
       .def(
          "warnings",
          [](const Self &self, const ContactState &state)
@@ -224,20 +225,18 @@ void bind_reductions(nb::module_ &m)
             return geometry_warnings(self, state.p);
          },
          arg("state"),
-         "Sentences about geometry that this state hangs on: normals of both bodies that "
-         "differ "
-         "by an angle that is not small against friction where a node bears, elements that "
-         "differ where nodes are paired, ends that are taken for planes of symmetry, nodes "
-         "that "
-         "supports hold askew. Empty: there is nothing to say.")
+         "Warnings about geometry that affects this state, as sentences: normals of both "
+         "bodies that differ, at a node that bears, by an angle that is not small compared "
+         "with friction; elements that differ although nodes are paired; ends that are taken "
+         "for planes of symmetry; nodes that supports hold askew. Empty if there are none.")
       .def(
          "add_obstacle_motion",
          [](Self &self, const std::string &name, const Place &ux, const Place &uy) {
             self.add_obstacle_motion(name, place_function(ux, "ux"), place_function(uy, "uy"));
          },
          arg("name"), arg("ux"), arg("uy"),
-         "A load that moves the rigid obstacle of one body. name: of the load. ux, uy: how far "
-         "per unit multiplier, numbers or functions of (x, y).")
+         "Adds a load that moves the rigid obstacle of one body. name: name of the load. ux, "
+         "uy: displacement per unit multiplier, numbers or functions of (x, y).")
       .def("__repr__",
            [](Self &of)
            {
@@ -255,21 +254,21 @@ void bind_reductions(nb::module_ &m)
    // Condensed bodies to a reduced problem: one function a kind of what bears on what.
    const char *const torsion_is =
       "torsion: the axisymmetric bodies once more, in their order, condensed to the same nodes "
-      "with formulation 'torsion': tangential components are then 2 a node, all radial ones "
-      "first, and q_theta are forces: a torque is the sum of r q_theta.";
+      "with formulation 'torsion'. A node then has 2 tangential components; all radial ones "
+      "come first. q_theta are forces: a torque is the sum of r q_theta.";
    m.def(
       "reduce",
       [](const CondensedBody &body, const Place &gap, const Bodies &torsion)
       { return completed(reduce(body, place_function(gap, "gap")), torsion); },
       arg("body"), arg("gap") = 0.0, nb::kw_only(), arg("torsion") = nb::tuple(),
-      "On a rigid obstacle. gap, a number or a function of (x, y), says how far it is from the "
-      "body; 0.0: of the shape that the body has.");
+      "One body on a rigid obstacle. gap: its distance from the body, a number or a function "
+      "of (x, y); 0.0: the obstacle has the shape of the body.");
    m.def(
       "reduce",
       [](const CondensedBody &body, const HalfPlane &half_plane, const Bodies &torsion)
       { return completed(reduce(body, half_plane), torsion); },
       arg("body"), arg("half_plane"), nb::kw_only(), arg("torsion") = nb::tuple(),
-      "Pressed on a half-plane; the gap is the geometry's.");
+      "One body pressed on a half-plane. The gap is that of the geometry.");
    m.def(
       "reduce",
       [](const CondensedBody &body, const CondensedBody &other, const Pairing *pairing,
@@ -277,9 +276,9 @@ void bind_reductions(nb::module_ &m)
       { return completed(reduced_pair(body, other, pairing), torsion); },
       arg("body"), arg("other"), arg("pairing") = nb::none(), nb::kw_only(),
       arg("torsion") = nb::tuple(),
-      "Two bodies whose nodes match, `body` on the `other`. Where nodes are at the same places "
-      "but elements differ they meet as those of an interface do. pairing: of pair_lines(); it "
-      "is taken whatever the elements, and warned of (OutcomeWarning) where they differ.");
+      "Two bodies whose nodes match, `body` on the `other`. If nodes are at the same places "
+      "but elements differ, the bodies meet as at an interface. pairing: from pair_lines(); it "
+      "is used whatever the elements, with a warning (OutcomeWarning) if they differ.");
    m.def(
       "reduce",
       [](const Bodies &bodies, const std::vector<Interface> &interfaces,
@@ -292,15 +291,15 @@ void bind_reductions(nb::module_ &m)
       arg("bodies"), arg("interfaces"), nb::kw_only(), arg("half_plane") = nb::none(),
       arg("torsion") = nb::tuple(),
       (std::string(
-          "Any number of bodies that meet at interfaces, nodes that match or not; with "
-          "half_plane=… on it, which is body number len(bodies), the second side of interfaces "
-          "without a line: Interface('foot', (0, line), 1).\n") +
+          "Any number of bodies that meet at interfaces, with nodes that match or not. With "
+          "half_plane=… they stand on it: it is body number len(bodies), and the second side, "
+          "without a line, of its interfaces: Interface('foot', (0, line), 1).\n") +
        torsion_is)
          .c_str());
 
-   nb::class_<SeparateBodies>(m, "SeparateBodies",
-                              "Bodies that keep displacements of their own: K U + loads = "
-                              "L^T {q; p}, u = L U.")
+   nb::class_<SeparateBodies>(
+      m, "SeparateBodies",
+      "Bodies that keep their own displacements: K U + loads = L^T {q; p}, u = L U.")
       .def_prop_ro("K", viewed(&SeparateBodies::K))
       .def_prop_ro(
          "L", [](const SeparateBodies &self) { return array(Eigen::MatrixXd(self.L)); },
@@ -313,7 +312,7 @@ void bind_reductions(nb::module_ &m)
       [](const Bodies &bodies, const std::vector<Interface> &interfaces)
       { return separate(bodies, interfaces); },
       arg("bodies"), arg("interfaces"),
-      "Condensed bodies that meet at interfaces, but keep displacements of their own.");
+      "Condensed bodies that meet at interfaces, but keep their own displacements.");
 }
 
 } // namespace cattaneo::python

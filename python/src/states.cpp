@@ -31,8 +31,8 @@ void bind_states(nb::module_ &m)
 
    using Self = ContactState;
    nb::class_<Self> state(m, "ContactState",
-                          "All that the future of a frictional contact depends on. Arrays are "
-                          "views that cannot be written to.");
+                          "The state of a frictional contact, on which alone its future "
+                          "depends. Arrays are views that cannot be written to.");
    bind_validate(state);
    bind_copies(state);
    state
@@ -43,13 +43,14 @@ void bind_states(nb::module_ &m)
          [](const ReducedProblem &problem, Numbers v)
          { return Self::with_slip(problem, vector(v, "v", problem.slips())); },
          arg("problem"), arg("v"),
-         "Before any load, but with a given slip. v: (c n,), of the nodes of the problem.")
+         "The state before any load, with a given slip. v: (c n,), slip of the nodes of the "
+         "problem.")
       .def_prop_ro("v", viewed(&Self::v), "slip, size c n")
       .def_prop_ro("w", viewed(&Self::w), "opening, size n")
       .def_prop_ro("q", viewed(&Self::q), "tangential nodal forces, size c n")
       .def_prop_ro("p", viewed(&Self::p), "normal nodal forces, compression positive, size n")
       .def_prop_ro("slip_origin", viewed(&Self::slip_origin),
-                   "slip at which each node last stuck, opened or turned round")
+                   "slip at which each node last stuck, opened or reversed")
       .def_prop_ro("multipliers", viewed(&Self::multipliers), "of the load patterns")
       .def_prop_ro(
          "status", [](const Self &self) { return state_numbers(self.status); },
@@ -68,7 +69,8 @@ void bind_states(nb::module_ &m)
            });
    m.def(
       "load_contact_state", [](File name) { return load_contact_state(file(name)); },
-      arg("file"), "Reads a state from a file of save(), or of --save-state of the programs.");
+      arg("file"),
+      "Reads a state from a file that save(), or a program with --save-state, wrote.");
    m.def(
       "settled_states",
       [](const ReducedProblem &problem, const Self &state)
@@ -77,8 +79,8 @@ void bind_states(nb::module_ &m)
          return state_numbers(settled_states(problem, state));
       },
       arg("problem"), arg("state"),
-      "NodeState of each node of a state of the problem, as mechanics decides it, whatever "
-      "round-off made of ties.");
+      "NodeState of each node of a state of the problem, with ties decided by mechanics, not "
+      "by round-off.");
 }
 
 } // namespace cattaneo::python
