@@ -35,10 +35,10 @@ struct FitWindow
 /// Which nodes a fit uses.
 struct FitSettings
 {
-   /// Both 0: the window is chosen, as the one of least reported error.
+   /// Both 0: the window with the least reported error is chosen.
    FitWindow window;
-   /// Nodes next to the edge that the choice leaves out: discretisation smears the edge over
-   /// them.
+   /// Number of nodes next to the edge that a chosen window leaves out, because discretisation
+   /// smears the edge over them.
    int skip = 2;
    static constexpr int least_nodes = 4; ///< in a window
 

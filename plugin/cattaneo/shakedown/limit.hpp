@@ -63,7 +63,8 @@ struct LimitReport;
 /// How a limit is searched. The defaults need no tuning.
 struct LimitSettings
 {
-   /// Gap of the certificate over the limit, or over 1e-4 of the load that makes all slide.
+   /// Largest gap between the proven bounds, relative to the limit, or to 1e-4 of the load that
+   /// makes all nodes slide.
    double tolerance = 1e-6;
    int max_iterations = 300; ///< of Ipopt, in one programme
    /// Load factors are searched up to this multiple of (friction × normal force) / shear. If
@@ -72,8 +73,8 @@ struct LimitSettings
    double largest_factor = 1e4;
    /// The smallest friction coefficient is searched up to here.
    double largest_friction = 100;
-   /// A load limit also asks for the lower limit λ1 (LimitReport::every_start), which is one
-   /// more programme where the contact is coupled and has more than two nodes.
+   /// Compute the lower limit λ1 of a load limit as well (LimitReport::every_start). If the
+   /// contact is coupled and has more than two nodes this is one more programme.
    bool every_start = false;
    /// An earlier report of a sweep over the same contact to start from. Not owned; may be null.
    const LimitReport *start = nullptr;

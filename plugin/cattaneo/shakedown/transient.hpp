@@ -16,12 +16,12 @@ namespace cattaneo
     first vertex), as for a shear cycled through zero; else at its first vertex. */
 struct TransientSettings
 {
-   int cycles = 200; ///< the most that are marched
-   /// Loss of a cycle, over that of the first or the elastic energy of the stuck contact if
-   /// that is more, below which a slip that decays from cycle to cycle counts as ended.
+   int cycles = 200; ///< largest number of cycles that are marched
+   /// A slip that decays from cycle to cycle counts as ended when the loss of a cycle is below
+   /// this share of the loss of the first cycle, or of the elastic energy of the stuck contact
+   /// if that is more.
    double shaken_down = 1e-6;
-   /// An upper limit that is proven, LimitReport::upper: no march above it is said to have
-   /// shaken down.
+   /// A proven upper limit, LimitReport::upper. No march above it counts as shaken down.
    double upper = std::numeric_limits<double>::infinity();
    MarchSettings march; ///< of each of them
 

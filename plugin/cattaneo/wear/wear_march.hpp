@@ -47,18 +47,18 @@ struct WearSettings
    MarchSettings march; ///< of each cycle. Its monitor watches the whole computation and is
                         ///< asked between two cycles. A steady state of slip does not end it
    GapUpdate update = GapUpdate::cycle; ///< when the gap follows
-   /** Largest estimated error of depths by jumps over cycles, at each cycle that has a record,
+   /** Largest estimated error of the depths because cycles are skipped, at each recorded cycle,
        as a share of the largest depth (see WearReport::error). 0: every cycle is marched, as
        with GapUpdate::piece. Allowed: from 1e-8 to 0.1. */
    double tolerance = 0;
    /// Is the observer called for what was marched or jumped over between these two numbers of
    /// cycles? Empty: always.
    std::function<bool(double from, double to)> observed;
-   /// Final: a cycle adds less than this share of the largest depth so far; the march ends.
-   /// 0: it goes on.
+   /// Wear is final, and the march ends, when a cycle adds less than this share of the largest
+   /// depth so far. 0: the march goes on.
    double final_share = 0;
-   /// Steady: depths of a cycle that differ, over a quarter of all cycles so far, by no more
-   /// than this share of the largest.
+   /// Wear is steady when the depth that a cycle adds has changed, over the last quarter of all
+   /// cycles so far, by no more than this share of the largest.
    double steady_tolerance = 1e-6;
 
    /// InputError naming the setting, its value and what is allowed.
