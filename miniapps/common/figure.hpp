@@ -61,7 +61,7 @@ public:
    /// An arrow of a plan, shown all around: "rate" (of slip) or "total" (slip), at a radius, by
    /// its angle from the radial direction, radians.
    void arrow(const std::string &kind, double radius, double angle);
-   /// Of a scene: an edge of a body, an arrow, or a mark (without extent), named by its kind.
+   /// An item of a scene: an edge of a body, an arrow, or a mark (without extent), by its kind.
    void item(const std::string &item, const Eigen::Vector2d &from,
              const Eigen::Vector2d &extent);
    /// A value of a field.

@@ -36,9 +36,9 @@ public:
    /// code of the study says so, and it goes on. InputError if energies overflow.
    void march(const cattaneo::ReducedProblem &problem, const Observer &observe);
 
-   /// Of the last state: its loads, zones and tractions, and `more` about its forces.
+   /// Reports the last state: its loads, zones and tractions, and `more` about its forces.
    void report_state(const cattaneo::ReducedProblem &problem, const std::string &more);
-   /// Of the march: cycles, losses, residuals, the changes of an exact path.
+   /// Reports the march: cycles, losses, residuals, the changes of an exact path.
    void report_march(const cattaneo::ReducedProblem &problem);
 
    /// Is the problem one about an axis? Zones at the axis begin there.

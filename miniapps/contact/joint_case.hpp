@@ -77,7 +77,7 @@ struct JointCase
       std::string part;
       std::string called; ///< in an error
    };
-   /// Of a rigid obstacle, per unit multiplier of a load: a translation and a turn.
+   /// Motion of a rigid obstacle per unit multiplier of a load: a translation and a rotation.
    struct Motion
    {
       std::string load;
@@ -95,14 +95,14 @@ struct JointCase
       cattaneo::SlaveSide slave = cattaneo::SlaveSide::coarser;
       double most_overlap = cattaneo::Interface().most_overlap;
       bool tied = false;
-      /// Of a rigid obstacle: a polyline, a disc (a hole: negative radius) or a curve y(x);
-      /// none: the line that touches the side.
+      /// Shape of a rigid obstacle: a polyline, a disc (a hole has a negative radius) or a
+      /// curve y(x). None: the line that touches the side.
       std::vector<Eigen::Vector2d> obstacle;
       Eigen::Vector2d centre{0, 0};
       double radius = none;
       std::optional<cattaneo::Expression> curve;
       std::vector<Motion> motions;
-      /// Of a rigid obstacle that is free in some way, or under forces.
+      /// Guide of a rigid obstacle that is free in some way, or under forces.
       std::optional<cattaneo::Guide> guide;
       /// Nodes are paired one to one if none is farther off along the contact than this, in
       /// distances of nodes.
@@ -134,7 +134,8 @@ struct JointCase
    cattaneo::Formulation formulation = cattaneo::Formulation::plane;
    bool plane_stress = false;
    int order = 2;
-   /// Of the plane: forces are those of this thickness, of bodies that have none of their own.
+   /// Thickness of plane bodies that have none of their own. Forces are those of the whole
+   /// thickness.
    double thickness = 1;
    std::vector<Body> bodies;
    std::vector<Face> faces;

@@ -20,7 +20,7 @@ void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);
 /// Warns of what no contact node stands for.
 void warn_of_left_out(const cattaneo::InterfaceReport &interface);
-/// Of a march that found no equilibrium: warns of bodies that nothing holds and that touch
+/// After a march that found no equilibrium, warns of bodies that nothing holds and that touch
 /// nothing at rest.
 void warn_of_loose_bodies(const OwnBodies &own);
 /// Warns of a stiffness with few right digits.
@@ -45,7 +45,7 @@ cattaneo::ChordalError warn_of_chords(const cattaneo::Reduction &reduction,
 /// Warns where what bears next to the axis are linear elements, whose node on it takes no
 /// force.
 void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);
-/// Of each interface whether its second side is a straight rigid line, or a half-plane.
+/// For each interface: is its second side a straight rigid line, or a half-plane?
 std::vector<bool> even_sides(const JointCase &joint);
 
 /// Displacements are small: a node presses along its own normal. One that bears although this

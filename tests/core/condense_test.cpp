@@ -481,7 +481,7 @@ TEST(CondenseMatrix, ArraysOfAnyProgramAreTakenAsTheyAre)
 
 TEST(StiffnessProbes, BoundByHand)
 {
-   // Of a spring of 4, L = 2; of one between two nodes, what moves both counts for nothing.
+   // A spring of 4 has L = 2. For one between two nodes a motion of both counts for nothing.
    const double factor = 10 * std::sqrt(2 / std::acos(-1.0));
    const StiffnessProbes spring(MatrixXd::Constant(1, 1, 4), MatrixXd(1, 0));
    EXPECT_EQ(spring.motions().rows(), 1);

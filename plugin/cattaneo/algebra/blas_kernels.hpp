@@ -12,17 +12,17 @@ namespace cattaneo
 struct BlasKernels
 {
    std::string name;   ///< OpenBLAS's own, as "Haswell"; empty with another BLAS or with none
-   std::string better; ///< of safe ones that are far faster on this processor; empty: none
+   std::string better; ///< name of safe ones that are far faster on this processor; empty: none
 
-   /// One sentence with the name and, where others are far faster, with what to do.
+   /// One sentence with the name. If others are far faster it tells what to do.
    std::string statement() const;
 };
 
 /// Those of this process.
 BlasKernels blas_kernels();
 
-/// Kernels that are far faster than the named ones on a processor that has AVX2 and FMA, or
-/// not; empty: there are none. Kernels whose name is not known are taken to be good.
+/// Kernels that are far faster than the named ones, on a processor with or without AVX2 and
+/// FMA. Empty: there are none. Kernels with an unknown name count as good.
 std::string better_blas_kernels(const std::string &name, bool has_avx2);
 
 } // namespace cattaneo

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// What the Cholesky factor of M may be wrong by, to begin with.
+/// First estimate of the error of the Cholesky factor of M.
 double first_slack(const MatrixXd &M)
 {
    return 4 * std::numeric_limits<double>::epsilon() * static_cast<double>(M.rows()) *
@@ -47,7 +47,7 @@ double lanczos(Index n, Operator times)
       const auto basis = V.leftCols(k + 1);
       for (int twice = 0; twice < 2; ++twice) { v -= basis * (basis.transpose() * v); }
       below[k] = v.norm();
-      // What round-off leaves of a vector in the span of those before is no new direction.
+      // The round-off of a vector in the span of those before is no new direction.
       const double round_off = 1e-12 * diagonal.head(k + 1).cwiseAbs().maxCoeff();
       const bool last = k + 1 == n || !(below[k] > round_off);
       if (last || (k >= 7 && (k & (k + 1)) == 0)) // after 8, 16, 32, … vectors
@@ -56,7 +56,7 @@ double lanczos(Index n, Operator times)
          ritz.computeFromTridiagonal(diagonal.head(k + 1), below.head(k));
          const double largest = ritz.eigenvalues()[k],
                       residual = below[k] * std::abs(ritz.eigenvectors()(k, k));
-         // The value is wrong by less than the square of the residual.
+         // The error of the value is less than the square of the residual.
          if (last || !(residual > 1e-8 * std::abs(largest))) { return largest; }
       }
       v /= below[k];

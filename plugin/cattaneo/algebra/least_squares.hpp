@@ -5,8 +5,8 @@
 namespace cattaneo
 {
 
-/// x with the least |A x - b|, of several such the shortest one; one problem a column of b.
-/// Compiled once, where Eigen's templates take long in every file.
+/// x with the least |A x - b|, and of several such x the shortest one. Each column of b is a
+/// problem. Compiled here once, because Eigen's templates take long to compile.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd &A, const Eigen::MatrixXd &b);
 
 } // namespace cattaneo

@@ -115,7 +115,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application(const ProgrammeSettings &se
                                                      bool multipliers_known)
 {
    const Ipopt::SmartPtr<Ipopt::IpoptApplication> app = IpoptApplicationFactory();
-   // What a monitor or an objective throws ends the work; Ipopt would call it a failure.
+   // An exception of a monitor or an objective ends the work; Ipopt would report a failure.
    app->RethrowNonIpoptException(true);
    Ipopt::OptionsList &options = *app->Options();
    options.SetIntegerValue("print_level", 0);
@@ -147,7 +147,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application(const ProgrammeSettings &se
    if (multipliers_known)
    {
       options.SetStringValue("warm_start_init_point", "yes");
-      // The default would push every multiplier up to 1e-3 and spoil most of what is known.
+      // The default would raise every multiplier to 1e-3, and so spoil most known multipliers.
       options.SetNumericValue("warm_start_mult_bound_push", 1e-9);
    }
    return app;
@@ -193,7 +193,7 @@ ProgrammeSolution solve(const NonlinearProgramme &programme, const ProgrammeSett
    const SmartPtr<IpoptApplication> app =
       application(settings, programme.multipliers().size() > 0);
    const SmartPtr<TNLP> asked = new AskedByIpopt(programme, solution);
-   // An empty file name: otherwise a file ipopt.opt in the working directory rules.
+   // An empty file name, as otherwise a file ipopt.opt in the working directory would count.
    ApplicationReturnStatus status = app->Initialize("");
    if (status == Solve_Succeeded)
    {

@@ -68,7 +68,7 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
          used = kept;
          if (used.empty()) { break; }
       }
-      // Else round-off would ask for edges that are at right angles to it already.
+      // Otherwise round-off would choose edges that are at right angles to it already.
       polish();
    }
    return {x, r};

@@ -8,7 +8,7 @@ namespace cattaneo
 namespace
 {
 
-/// OpenBLAS's own; null with another BLAS, and where it cannot change the number of threads.
+/// OpenBLAS's function; null with another BLAS, or if the number of threads cannot be changed.
 struct Threads
 {
    using Get = int (*)();
@@ -31,7 +31,9 @@ const Threads &threads()
 constexpr double worth_sharing = 1e9;
 
 std::mutex guard;
-int askers = 0, threads_before = 1; // who lives, and what the first of them found
+int askers = 0,
+    threads_before =
+       1; // number of present objects, and the number of threads that the first one found
 
 } // namespace
 

@@ -16,14 +16,13 @@ using Eigen::Vector2d;
 
 const double in_degrees = 180 / std::acos(-1.0);
 
-/// The angle of a unit vector to the axis of a component, 0 to 90 degrees, in radians.
+/// Angle between a unit vector and the axis of a component, 0 to 90 degrees, in radians.
 double off_axis(const Vector2d &unit, int component)
 {
    return std::asin(std::min(std::abs(unit[1 - component]), 1.0));
 }
 
-/// The tangent, at the first of three points, of the circle through them (a straight line, if
-/// that is what they lie on).
+/// Tangent, at the first of three points, of the circle (or straight line) through them.
 Vector2d circle_tangent(const std::array<Vector2d, 3> &points)
 {
    // Inversion about the first point makes a straight line along the tangent of the circle.
@@ -31,9 +30,9 @@ Vector2d circle_tangent(const std::array<Vector2d, 3> &points)
    return (one / one.squaredNorm() - two / two.squaredNorm()).normalized();
 }
 
-/// The angle at which the curve that a chain follows is off its mirror image at an end, where
-/// it curves so that it meets that one without a corner; else none. `component`: of the axis
-/// across the plane of symmetry.
+/// Angle between the curve of a chain and its mirror image at an end, if the chain curves such
+/// that it meets the image without a corner; else none. `component` is that of the axis normal
+/// to the plane of symmetry.
 std::optional<double> curves_into_symmetry(const LineChain &chain, bool last, int component)
 {
    std::optional<double> least;
@@ -88,7 +87,7 @@ void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComp
       const int axis = nearest_axis(node.tangent); // that the line goes along
       const double off = off_axis(node.tangent, axis), degrees = in_degrees * off;
       bool onto_axis = off <= 1e-9; // round-off of the coordinates
-      // About an axis nothing has a mirror image in a cylinder, which a held r is.
+      // About an axis a held r is a cylinder, in which nothing has a mirror image.
       const bool mirrors =
          axis == c && !moved(i, c) && (line.formulation == Formulation::plane || c == 1);
       for (LineChain &chain : line.chains)
@@ -104,7 +103,7 @@ void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComp
             onto_axis = onto_axis || curve;
          }
       }
-      // The first chord of a coarse circle leans more than any line may that is straight there.
+      // The first chord of a coarse circle leans more than a straight line may.
       require(onto_axis || degrees <= LineChain::smooth_turn, "condense: component ",
               component_name(line.formulation, c), " of the contact node at ", node.position,
               " is fixed, and the line meets it at ",
@@ -132,7 +131,7 @@ void meet_supports(ContactLine &line, const CondensedBody &body)
          moved(i, c) = body.moves(found->second, c);
       }
    }
-   // A node that is an end of the body's line, and there none of symmetry, is none here.
+   // A node at an end of the body's line without symmetry has none here either.
    for (const LineChain &chain : body.line.chains)
    {
       for (const int end : {0, 1})

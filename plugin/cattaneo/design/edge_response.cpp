@@ -36,7 +36,7 @@ struct Near
       }
    }
 
-   /// A number with derivatives by the pressure and the shear of each of the nodes.
+   /// A number, with its derivatives by the pressure and the shear of each node.
    Response response(double value, const VectorXd &by_p, const VectorXd &by_q) const
    {
       const Index m = problem.slips();

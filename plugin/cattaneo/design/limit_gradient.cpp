@@ -12,8 +12,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// What each datum adds to the work of the mechanism on the forces of a load factor. False if
-/// there is none.
+/// Contribution of each datum to the work of the mechanism on the forces of a load factor.
+/// False if there is none.
 bool take_work(const LimitProblem &problem, double load_factor, const LimitReport &limit,
                const std::vector<StiffnessChange> &stiffness, LimitGradient &by)
 {

@@ -7,33 +7,33 @@
 namespace cattaneo
 {
 
-/// A state that a march came to, and where its loads come from: those of point k of the history
-/// are λ_k, and the state's λ_point + share (λ_point+1 - λ_point).
+/// A state of a march, and the origin of its loads. With λ_k the loads of point k of the
+/// history, those of the state are λ_point + share (λ_point+1 - λ_point).
 struct TracedState
 {
    ContactState state; ///< as the march left it
    int point = 0;      ///< k of the history, from 0
-   double share = 0;   ///< of the way to the next point, 0 to 1
-   /// The share is the answer's: this node changes its state there (IncrementRecord::event).
-   /// -1: it is the history's.
+   double share = 0;   ///< share of the path to the next point, 0 to 1
+   /// If this node changes its state here (IncrementRecord::event), the share depends on the
+   /// solution. -1: it depends on the history alone.
    Eigen::Index event = -1;
    /// Worn off before the increment that ends here: the gap is g + depth. Empty: nothing.
    Eigen::VectorXd depth = {};
 };
 
-/// All states of a march, which is what its derivatives are taken of.
+/// All states of a march, from which its derivatives are computed.
 struct MarchTrace
 {
    LoadHistory history;             ///< that was marched
    std::vector<TracedState> states; ///< the first is the one at its start, which is given
    MarchReport report;              ///< of the march
-   /// Tells traces apart, whose responses are no others': each that was marched has another.
-   /// Copies have the same. 0: not known.
+   /// Number of the trace, as responses belong to one trace only. Each marched trace has
+   /// another number, copies have the same one. 0: not known.
    std::uint64_t number = 0;
-   /// Is the path followed on which nodes close? Not in equal increments.
+   /// Does the march follow the path on which nodes close? Equal increments do not.
    bool follows_path = false;
-   /// By which the depth of the states follows from those before, and worn_depth() of Responses
-   /// is; no coefficients: nothing wears.
+   /// Law by which the depth of the states follows from earlier states, also for worn_depth()
+   /// of Responses. Without coefficients nothing wears.
    WearLaw wear;
 
    /// Index of the last state that was reached by a time of the history. InputError if the

@@ -19,14 +19,16 @@ struct BoundaryPart
    double lo = -std::numeric_limits<double>::infinity(); ///< lower end of the interval, in the
                                                          ///< mesh's units
    double hi = std::numeric_limits<double>::infinity();  ///< upper end
-   int marked = 0; ///< number of entries of the marker that it was made of, 0: of none
+   int marked =
+      0; ///< number of entries of the marker from which it was made; 0: without a marker
 
    /// All of one attribute.
    BoundaryPart(int attribute) : attributes{attribute} {}
    /// All of some attributes.
    BoundaryPart(std::vector<int> some) : attributes(std::move(some)) {}
-   /// MFEM's marker: for each boundary attribute, from 1, whether it belongs to the part (1) or
-   /// not (0). Where it is used, InputError if it has not one for each of the mesh.
+   /// From MFEM's marker: 1 for each boundary attribute (from 1) that belongs to the part, else
+   /// 0. When the part is used, InputError unless the marker has an entry for each attribute of
+   /// the mesh.
    BoundaryPart(const mfem::Array<int> &marker) : marked(marker.Size())
    {
       for (int k = 0; k < marker.Size(); ++k)

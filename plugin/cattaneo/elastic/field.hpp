@@ -11,7 +11,7 @@ namespace cattaneo
 {
 
 /// A value that may vary over a body: a number, a function of (x, y), or an mfem::Coefficient,
-/// which must live as long as it may be asked.
+/// which must live as long as it may be used.
 class Field
 {
 public:
@@ -38,7 +38,7 @@ public:
            })
    {
    }
-   /// At the point that is set in the transformation of an element or a boundary element.
+   /// Value at the point that is set in the transformation of an element or a boundary element.
    /// InputError, starting with `where`, if it is not finite.
    double at(mfem::ElementTransformation &place, const std::string &where) const;
 
@@ -53,8 +53,8 @@ struct VaryingMaterial
    Field poisson;                         ///< Poisson's ratio, likewise
    PlaneState state = PlaneState::strain; ///< strain or stress, everywhere the same
 
-   /// At the point that is set in the transformation; InputError that names it if the material
-   /// is not sound there.
+   /// Material at the point that is set in the transformation. InputError that names the point
+   /// if the material is not valid there.
    Material at(mfem::ElementTransformation &place) const;
 };
 

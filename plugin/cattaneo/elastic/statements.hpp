@@ -9,9 +9,9 @@
 namespace cattaneo
 {
 
-// The small language in which a user of a program writes supports and loads
-// (docs/contact.md). `called` is what the text is called in an error, the name of an option
-// for instance; every function throws an InputError that says it and quotes the statement.
+// The small language in which users of the programs write supports and loads (docs/contact.md).
+// `called` is the name of the text in errors, for instance that of an option. All functions
+// throw an InputError with this name and the statement.
 
 /// Properties of the body that a statement may use.
 struct BodyTerms
@@ -20,7 +20,8 @@ struct BodyTerms
    /// none.
    std::map<std::string, std::vector<int>> boundary;
    bool numbered = true; ///< attributes may be named by their numbers
-   /// Coefficient of thermal expansion, of all of the body; not known: no temperatures.
+   /// Coefficient of thermal expansion of the whole body. Without it loads of temperature are
+   /// refused.
    double expansion = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -41,7 +42,7 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
                   const BodyTerms &terms = {});
 
-/// Boundary attributes that supports hold, along whichever component; nodes at points are none.
+/// Boundary attributes that supports hold, in any component, without nodes at points.
 /// InputError as of add_supports().
 std::vector<int> supported_attributes(const std::string &called, const std::string &text,
                                       const BodyTerms &terms = {});

@@ -194,7 +194,7 @@ MatrixXd translations(const HalfPlane &body, Formulation formulation)
    return Eigen::Matrix2d::Identity();
 }
 
-/// Displacements of its contact nodes under a bulk stress of 1, if no force acts on them.
+/// Displacements of its contact nodes under a bulk stress of 1, without forces on them.
 VectorXd stretched(const CondensedBody &body, const HalfPlane &half_plane)
 {
    const Index n = body.line.size();
@@ -374,7 +374,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
       [&](double x)
       { return measure(formulation, x) * lever(formulation, x) * lever(formulation, x); });
 
-   // Of all unknowns (with those on the axis, last of each component) the free ones.
+   // The free ones of all unknowns. Those on the axis are the last of each component.
    const Index n = line.size(), unknowns = trace.unknowns(), axis = unknowns - n;
    std::vector<int> kept, free; // unknowns, and rows of S
    for (int c = 0; c < components(formulation); ++c)
@@ -419,7 +419,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    result.free_motions.resize(rows, 0);
    auto solver = std::make_shared<SurfaceSolver>();
    solver->dofs = rows;
-   // In components: a tangential one that is held lies along the surface.
+   // In components, as a held tangential component lies along the surface.
    const bool upright = tangent(body)[0] == 0;
    for (Index i = 0; i < rows; ++i)
    {
@@ -451,7 +451,7 @@ CondensedBody condense(const HalfPlane &body, const std::vector<double> &grid, i
       }
    }
    ContactLine facing = surface_line(own, surface);
-   // Radii grow to the right: below a surface whose line runs to the left the axis comes last.
+   // Radii grow to the right. If the line of the surface runs to the left, the axis comes last.
    if (!surface.plane && tangent(body)[0] < 0) { facing = surface_line(facing, surface); }
    set_weights(facing, trace_of(facing, surface));
    return condense(body, facing);
@@ -512,7 +512,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
       }
    }
    require(!standing.empty(), "half-plane: no interface has it as the second side, one must");
-   // Bodies that stand on it have lines that run against its own.
+   // The lines of bodies on it run in the opposite direction of its own.
    std::stable_sort(standing.begin(), standing.end(),
                     [](const Standing &a, const Standing &b) { return a.along > b.along; });
    ContactLine all;
@@ -537,7 +537,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
       one.pairing =
          Pairing{std::vector<int>(one.first.line.size()), VectorXd(one.first.line.size())};
    }
-   // Its chains are those that stand on it from the last to the first, each turned round.
+   // Its chains are those of the bodies on it, from the last to the first, each reversed.
    for (std::size_t c = standing.size(); c-- > 0;)
    {
       Interface &one = interfaces[standing[c].interface];

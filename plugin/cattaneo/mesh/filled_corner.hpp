@@ -13,8 +13,8 @@ struct FilledCorner
    int attribute = 0; ///< of the elements there
 };
 
-/// The corner at a point, which must be a vertex. InputError if it is none, or if elements of
-/// several attributes meet there.
+/// The corner at a point. InputError if the point is no vertex, or if elements of several
+/// attributes meet there.
 FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point);
 
 } // namespace cattaneo

@@ -15,7 +15,7 @@ struct MeshPart
    /// A part of a deck: an instance, or a set of elements. Empty: the deck has one body, or
    /// `usual` names it.
    std::string name;
-   /// The name of an instance that is taken among several if `name` is empty.
+   /// If `name` is empty and there are several instances, the one with this name is used.
    std::string usual = {};
    /// The name of a line within the body (a physical curve of Gmsh) along which the mesh is
    /// cut: elements on its two sides have nodes of their own there, but for ends within the
@@ -49,8 +49,8 @@ struct MeshNames
    bool axisymmetric = false;           ///< elements of a deck
    /// Cards of a deck that are not read: "*BOUNDARY, *CLOAD, *STEP".
    std::string passed_over;
-   /// Elastic constants of a material of a deck, both 0 where it is not isotropic, or changes
-   /// with temperature.
+   /// Elastic constants of a material of a deck, both 0 if it is not isotropic, or changes with
+   /// temperature.
    struct DeckMaterial
    {
       std::string name;   ///< in capitals
@@ -63,9 +63,9 @@ struct MeshNames
 /// Names and other data of a mesh file that read_mesh() takes, for the same part of it.
 MeshNames mesh_names(const std::string &file, const MeshPart &part = {});
 
-/// A sentence if vertices lie on one another, to a thousandth of their shortest edge, where the
-/// body is cut and its faces may pass through each other; else nothing. `name` is what the mesh
-/// is called in it; on boundary attributes `meeting` the faces are kept apart by contact.
+/// A sentence if vertices coincide, to a thousandth of their shortest edge: there the body is
+/// cut and its faces may pass through each other. Otherwise nothing. `name` is the name of the
+/// mesh in the sentence. On boundary attributes `meeting` contact keeps the faces apart.
 std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
                               const std::vector<int> &meeting = {});
 

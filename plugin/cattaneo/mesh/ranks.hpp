@@ -23,7 +23,7 @@ public:
    int rank() const { return rank_; }
    /// More than one?
    bool several() const { return size_ > 1; }
-   /// True if the mesh is a conforming mfem::ParMesh, be it on one rank.
+   /// True if the mesh is a conforming mfem::ParMesh, even on one rank.
    bool distributed() const { return distributed_; }
    /// Is this the first of those that share the mesh?
    bool first() const { return rank_ == 0; }
@@ -41,9 +41,9 @@ public:
    /// The values of all ranks, in the order of the ranks.
    std::vector<double> gather(const std::vector<double> &here) const;
 
-   /// Work that only the first rank does; its InputError is thrown on all.
+   /// Does work on the first rank only. Its InputError is thrown on all ranks.
    void on_first(const std::function<void()> &work) const;
-   /// The values of all ranks, in the order of the ranks, on the first; none elsewhere.
+   /// On the first rank the values of all ranks, in their order; empty on the others.
    std::vector<double> collect(const std::vector<double> &here) const;
    /// The same of whole numbers.
    std::vector<int> collect(const std::vector<int> &here) const;

@@ -140,7 +140,8 @@ struct Candidate
    double apart;
 };
 
-/// Where a falls below zero within an element: its end, if it does not.
+/// Parameter at which an increasing function crosses zero; 0 if it begins above, 1 if it ends
+/// below.
 template <class Function>
 double crossing(const Function &value, double at_begin, double at_end)
 {

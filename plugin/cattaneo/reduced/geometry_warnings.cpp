@@ -242,13 +242,13 @@ void say_short_edges(const Reduction &reduction, const InterfaceReport &face,
       "that its neighbours should: make the lengths of the edges change more slowly"));
 }
 
-/// An element of a line with what it is a chord of, and what is beside it.
+/// An element of a line, with the curve of which it is a chord, and with its neighbours.
 struct LineEdge
 {
    const LineElement *element = nullptr;
    Vector2d from, to;
    /// Turns to the elements before and after, over half of the sum of both lengths: the
-   /// curvature of a curve through its ends; not known at ends of the line.
+   /// curvature of a curve through its ends. Empty at ends of the line.
    std::array<std::optional<double>, 2> curvature;
 
    double length() const { return (to - from).norm(); }
@@ -277,7 +277,7 @@ std::vector<LineEdge> edges_of(const ContactLine &line)
    return all;
 }
 
-/// Edges that stay a polygon though the other side is a smooth curve that their vertices fit.
+/// Edges that stay a polygon although their vertices lie on the smooth curve of the other side.
 void say_polygon(const Reduction &reduction, const InterfaceReport &face,
                  const std::vector<bool> &bears, std::vector<std::string> &said)
 {
@@ -298,7 +298,7 @@ void say_polygon(const Reduction &reduction, const InterfaceReport &face,
       {
          if (!edge.element->bend || edge.follows_curve()) { continue; }
          const Vector2d middle = 0.5 * (edge.from + edge.to);
-         // The curve over against its middle.
+         // The curve opposite to its middle.
          const LineEdge *nearest = nullptr;
          double away = 0.5 * edge.length();
          for (const LineEdge &curve : facing)
@@ -315,8 +315,8 @@ void say_polygon(const Reduction &reduction, const InterfaceReport &face,
          if (!nearest) { continue; }
          const EdgeBend &bend = *nearest->element->bend;
          const double its = 2 * std::sin(0.5 * (bend.begin + bend.end)) / nearest->length();
-         // Seen from the other side the curve turns the other way. Not known at both ends: no
-         // polygon.
+         // Seen from the other side the curve turns in the other direction. Without a turn at
+         // either end it is no polygon.
          bool fits = edge.curvature[0] || edge.curvature[1];
          for (const std::optional<double> &turns : edge.curvature)
          {

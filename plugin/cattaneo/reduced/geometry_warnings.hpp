@@ -7,12 +7,12 @@
 namespace cattaneo
 {
 
-/// The share of the coefficient of friction that an angle between the normals of two bodies
-/// (in radians) may have and is small: half of the angle, which is what the frame of the node
-/// is off either normal by, is a tenth of the friction then.
+/// Largest angle between the normals of two bodies (in radians) that counts as small, as a
+/// share of the coefficient of friction. The frame of the node is off either normal by half of
+/// the angle, which then is a tenth of the friction.
 constexpr double small_turn = 0.2;
 
-/// An edge of a contact side that is shorter than this share of one beside it is uneven.
+/// An edge of a contact side is uneven if it is shorter than this share of an edge beside it.
 constexpr double uneven_edges = 0.2;
 
 /** Sentences, none if there is nothing to say, about geometry that a solution hangs on without

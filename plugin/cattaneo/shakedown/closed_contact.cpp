@@ -80,7 +80,8 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    ReducedProblem &reduced = contact.reduced;
    const Eigen::Index m = c * n_closed;
    reduced.gap = Eigen::VectorXd::Zero(n_closed);
-   // Motions without resistance move the open nodes along. Round-off of their elimination goes.
+   // Motions without resistance move the open nodes as well. The round-off of their elimination
+   // is removed.
    const Eigen::MatrixXd Q = thin_qr(problem.rigid_motions(kept, Eigen::all)).Q;
    S -= Q * (Q.transpose() * S);
    S -= (S * Q) * Q.transpose();

@@ -36,8 +36,8 @@ struct LeastPressure
    Eigen::MatrixXd by_shear;  ///< n × c·n
 };
 
-/// @a pressure: typical normal forces, size n, positive: among the many s those for it are
-/// chosen.
+/// @a pressure has typical normal forces, size n, positive. Among the many possible s those for
+/// this pressure are chosen.
 LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces &residual,
                              const Eigen::VectorXd &pressure);
 
@@ -71,20 +71,20 @@ struct LowerLimitReport
    LowerLimitKind kind = LowerLimitKind::none; ///< what is known
    LimitStatus status = LimitStatus::failed;   ///< of the programme behind it
    std::string message;                        ///< what is proven, in one sentence
-   double value = 0; ///< λ1, or a number that λ1 is proven not to be below
+   double value = 0;                           ///< λ1, or a proven lower bound of it
    /// v* of the bound, c·n; for two nodes the corner of the safe region at λ1.
    Eigen::VectorXd slip;
    Counters counters; ///< of the programme behind it
 };
 
-/// @a upper is the report of load_limit for the same problem; @a apart: nodes that are set
-/// apart (only a bound knows of them: two nodes and uncoupled contacts have more to say).
+/// @a upper is the report of load_limit for the same problem. @a apart are nodes that are set
+/// apart; they matter to a bound only, as two nodes and uncoupled contacts have better results.
 /// InputError if one does not exist.
 LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upper,
                              const LimitSettings &settings = {}, const NodeList &apart = {});
 
-/// Writes into the report of a load limit what is known of λ1: LimitReport::every_start and
-/// starts. A @a lower without a message: λ1 was not asked for.
+/// Writes λ1 into the report of a load limit: LimitReport::every_start and starts. If @a lower
+/// has no message, λ1 was not requested.
 void tell_starts(LimitReport &upper, const LowerLimitReport &lower);
 
 } // namespace cattaneo

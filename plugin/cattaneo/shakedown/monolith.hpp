@@ -17,7 +17,8 @@ using NodeList = std::vector<Eigen::Index>;
 NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes);
 
 /// Nodes further than a share of the line's length from both its ends. An end on a plane of
-/// symmetry is none, its mirror image belongs to the length; nor has a closed line ends.
+/// symmetry does not count, and its mirror image belongs to the length. A closed line has no
+/// ends.
 NodeList nodes_away_from_ends(const ReducedProblem &problem, double share);
 
 /// q / p of each node (4.2) under the loads @a multipliers, size n; with two components |q| /

@@ -20,7 +20,7 @@ struct WearLaw
    Eigen::VectorXd coefficient; ///< k of each node, size n, ≥ 0, in 1/pressure
    Eigen::VectorXd threshold;   ///< p_th of each node, size n, ≥ 0; none if empty
    bool of_energy =
-      false; ///< k is of the energy that friction takes, not of pressure times slip
+      false; ///< k multiplies the energy lost by friction, not pressure times slip
 
    /// The same k at every node, no threshold.
    static WearLaw uniform(const ReducedProblem &problem, double coefficient);

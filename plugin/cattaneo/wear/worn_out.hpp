@@ -12,16 +12,16 @@ struct WornOut
    FrictionStatus status = FrictionStatus::stalled; ///< converged if the state was found
    std::string message;                             ///< empty if found (converged)
    Eigen::VectorXd depth;                           ///< worn off at each node, size n, ≥ 0
-   /// What is left beyond the contact, size n: how far the surfaces would overlap unworn; depth
-   /// is its positive part but for nodes that stick, where it is 0. It crosses zero where wear
-   /// ends.
+   /// Overlap of the unworn surfaces, size n, also beyond the contact. It crosses zero where
+   /// wear ends. The depth is its positive part, except at nodes that stick, where it is 0.
    Eigen::VectorXd overlap;
    std::vector<bool> stick; ///< nodes that never slip in a cycle: they alone carry the loads
    ContactState contact;    ///< at the end of a cycle
    SlipRange range;         ///< of the unworn cycle that was found first
    ContactState unworn;     ///< at its end
-   double loss = 0;         ///< energy of a cycle, over that of the unworn contact
-   int searches = 0; ///< sets of sticking nodes that were tried; 0: nothing slips, none wears
+   double loss = 0;         ///< energy loss of a cycle, over that of the unworn contact
+   int searches = 0; ///< number of sets of sticking nodes that were tried; 0: nothing slips, so
+                     ///< nothing wears
    /// Ends of the line that contact or wear reaches although the bodies go on there: depth and
    /// volume are too small then, and may be zero.
    std::vector<CutOffContact> cut_off;

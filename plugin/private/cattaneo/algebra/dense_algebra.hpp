@@ -24,9 +24,8 @@ SymmetricModes symmetric_modes(const Eigen::MatrixXd &matrix);
 /// The values alone.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &matrix);
 
-/// Combinations of the orthonormal columns of Z that are zero in these rows of it. What is less
-/// than 1e-7 of the rest there counts as zero: a stiffness of 1 makes less than round-off of
-/// its square.
+/// Combinations of the orthonormal columns of Z that are zero in these rows. Values below 1e-7
+/// of the rest count as zero, because with a stiffness of 1 their squares are below round-off.
 Eigen::MatrixXd at_rest(const Eigen::MatrixXd &Z, const Eigen::MatrixXd &rows);
 
 /// A⁻¹ B of a square A that is not singular, by LU with row pivoting.

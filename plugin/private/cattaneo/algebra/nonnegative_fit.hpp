@@ -14,8 +14,8 @@ struct NonnegativeFit
 /// min |G x - g| over x >= 0 (Lawson and Hanson's active set; G has few rows).
 NonnegativeFit fit_nonnegative(const Eigen::MatrixXd &G, const Eigen::VectorXd &g);
 
-/// The x of least |x| with G x >= h (G has few columns), or none where no x is found: Lawson
-/// and Hanson's least distance programming.
+/// The x of least |x| with G x >= h (G has few columns), by Lawson and Hanson's least distance
+/// programming. Empty if no x is found.
 std::optional<Eigen::VectorXd> least_distance(const Eigen::MatrixXd &G,
                                               const Eigen::VectorXd &h);
 

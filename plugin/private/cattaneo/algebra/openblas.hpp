@@ -3,9 +3,9 @@
 namespace cattaneo
 {
 
-/// A function of the OpenBLAS that our products and factors are made with, by its name; null
-/// with another BLAS. It is looked for where dgemm_ comes from, since a process may hold more
-/// than one: NumPy brings its own.
+/// A function, by its name, of the OpenBLAS that computes our products and factors; null with
+/// another BLAS. It is searched in the library of dgemm_, because a process may have more than
+/// one OpenBLAS: NumPy brings its own.
 void *openblas_function(const char *name);
 
 } // namespace cattaneo

@@ -5,9 +5,9 @@
 namespace cattaneo
 {
 
-/// What arithmetic leaves of the sums K u + f, row by row: 4 ε (|K| |u| + |f|). All rows are
-/// given the bound by the largest row sum, which is cheaper, where it is below 1e-11 of the
-/// largest f and the diagonal of K spans less than four decades.
+/// Round-off of the sums K u + f, row by row: 4 ε (|K| |u| + |f|). If the bound by the largest
+/// row sum, which is cheaper, is below 1e-11 of the largest f and the diagonal of K spans less
+/// than four decades, all rows get that bound.
 class RoundOff
 {
 public:
@@ -16,7 +16,7 @@ public:
    /// `size`: bound of |u| entry by entry; f: forces with u = 0.
    Eigen::VectorXd rows(const Eigen::VectorXd &size, const Eigen::VectorXd &f) const;
 
-   /// At most what any row has, without a look at K; u itself, f as before.
+   /// An upper bound for all rows, without reading K. u is the vector itself, f as above.
    double most(const Eigen::VectorXd &u, const Eigen::VectorXd &f) const;
 
 private:

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-/// Passes over large matrices and their transposes, a block at a time: entry by entry one of
-/// the two would be read across its columns, which takes several times as long.
+/// Passes over large matrices and their transposes, block by block. Entry by entry, one of the
+/// two would be read across its columns, which takes several times as long.
 namespace cattaneo
 {
 
@@ -20,7 +20,7 @@ Eigen::MatrixXd symmetric_times(const Eigen::Ref<const Eigen::MatrixXd> &S,
                                 const Eigen::Ref<const Eigen::MatrixXd> &X);
 
 /// (1 - Q Qᵀ) S (1 - Q Qᵀ) for a symmetric S and few orthonormal columns, symmetric to the last
-/// bit: the stiffness is freed of what round-off lets it resist these motions by.
+/// bit. It removes the resistance to these motions that is only round-off.
 void remove_motions(Eigen::MatrixXd &S, const Eigen::MatrixXd &Q);
 
 } // namespace cattaneo

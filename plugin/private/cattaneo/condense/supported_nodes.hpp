@@ -5,7 +5,7 @@
 namespace cattaneo
 {
 
-/// Which components, 0: x or r and 1: y or z, supports hold of each node of a line.
+/// The components of each node of a line that supports hold; 0: x or r, 1: y or z.
 using HeldComponents = Eigen::Array<bool, Eigen::Dynamic, 2>;
 
 /** Frames and ends of a line by what supports hold of its nodes.

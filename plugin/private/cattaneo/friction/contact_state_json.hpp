@@ -10,7 +10,7 @@ namespace cattaneo
 std::vector<double> json_list(const Eigen::VectorXd &x);
 Eigen::VectorXd json_vector(const nlohmann::json &j);
 
-/// All of a state, to the last bit. InputError if a value is not finite.
+/// A complete state, to the last bit. InputError if a value is not finite.
 nlohmann::json to_json(const ContactState &state);
 /// What to_json() made. @param file where it stands, for InputError
 ContactState contact_state(const nlohmann::json &j, const std::string &file);

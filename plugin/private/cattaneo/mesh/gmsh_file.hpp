@@ -19,7 +19,7 @@ struct GmshType
 /// numbers.
 const std::map<long, GmshType> &gmsh_types();
 
-/// A mesh as Gmsh has it.
+/// A mesh in Gmsh's form.
 struct GmshMesh
 {
    struct Element

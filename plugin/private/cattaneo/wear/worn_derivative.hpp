@@ -6,8 +6,8 @@
 namespace cattaneo
 {
 
-/// Derivatives of the worn_depth() of one node that has a weight, over an increment: by what
-/// its rubbing depends on, and by Archard's k there.
+/// Derivatives of the worn_depth() of one node with a weight, over an increment: by the
+/// arguments of its rubbing, and by Archard's k there.
 struct WornDerivative
 {
    RubbingDerivative by;
