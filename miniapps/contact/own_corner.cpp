@@ -58,10 +58,11 @@ fretting::CornerModes OwnBodies::corner(int end) const
    }
    const Wedge body = wedge(1, end < 0);
    require(similar(pad.material, body.material),
-           "the bodies differ in material there, whose exponents are not known here");
+           "the bodies have different materials at this corner, and exponents are known for "
+           "one material only");
    const double gap = 2 * std::acos(-1.0) - pad.angle - body.angle;
-   require(gap > 1e-6, "the surfaces of both bodies run on smoothly there: the contact line is "
-                       "cut off, lengthen it");
+   require(gap > 1e-6, "the surfaces of both bodies go on smoothly there, so the contact line "
+                       "is too short: name more of the boundary as contact");
    return fretting::corner_modes(fretting::Corner{pad.angle, body.angle});
 }
 

@@ -105,7 +105,7 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
                              : std::max(held_share(body, Eigen::Vector2d(1, 0)),
                                         held_share(body, Eigen::Vector2d(0, 1)));
       require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
-              body.name, " against it, whose displacements are relative to a depth: ",
+              body.name, " against it. Displacements of a half-plane are relative to a depth: ",
               plane.source.called("half-plane.depth"),
               " must state it, or forces alone act on the body");
    }

@@ -38,9 +38,8 @@ void warn_of_offsets(const ContactLine &line1, const ContactLine &line2, const P
                                std::min(one.spacing, other.spacing));
    }
    if (most <= 0.1) { return; }
-   warn(text("nodes are paired that lie up to %.2g of an element's length off along the line: "
-             "the two bodies feel one force at places as far apart; without key 'pairing' they "
-             "do not",
+   warn(text("paired nodes lie up to %.2g of an element's length apart along the line, so both "
+             "bodies feel the same force at different places: leave out key 'pairing'",
              most));
 }
 
@@ -196,8 +195,7 @@ Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
    {
       require(joint.faces.size() == 1 && condensed.size() == 2 && one.sides[1].body >= 0,
               one.source.called("pairing"),
-              " is for two bodies at one interface: others need none, their nodes need not "
-              "match");
+              " is for two bodies at one interface only: leave it out, nodes need not match");
       return paired(std::move(condensed), one);
    }
    return reduce(std::move(condensed), interfaces_of(joint, lines));

@@ -21,7 +21,7 @@ void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
       warn(bolt.source.called("direction") + " points from " +
            joint.bodies[bolt.ends[0].body].name + " to " +
            joint.bodies[bolt.ends[1].body].name +
-           ": the shank pushes them apart, to pull them together it must point the other way");
+           ": the shank would push them apart, its direction must be the opposite one");
    }
    const double off = std::abs(along[0] * apart[1] - along[1] * apart[0]);
    if (off > 0.05 * apart.norm())
@@ -30,7 +30,8 @@ void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
            "), and the middles of its ends lie at (", ends[0][0], ", ", ends[0][1], ") and (",
            ends[1][0], ", ", ends[1][1], "): its two forces pass each ",
            "other at a distance of ", off,
-           " and turn the bodies, a shank must lie along its direction");
+           " and turn the bodies. A shank must lie along its direction, from one middle to the "
+           "other");
    }
 }
 
@@ -38,11 +39,12 @@ void warn_of_accuracy(double accuracy)
 {
    if (accuracy <= 1e-6) { return; }
    warn(std::isfinite(accuracy)
-           ? told("the stiffness of the contact may be wrong by ", accuracy,
-                  " of itself (round-off of the condensation, an estimate from above)")
-           : "round-off of the condensation leaves nothing of the contact's stiffness",
-        ": Young's moduli or element sizes within a body are too far apart; take a much "
-        "stiffer part for rigid, or less contrast, which changes no result that can be told");
+           ? told("the relative error of the contact stiffness may be ", accuracy,
+                  " (round-off of the condensation, an upper estimate)")
+           : "round-off of the condensation leaves no digit of the contact stiffness",
+        ": Young's moduli or element sizes within a body are too far apart. Replace a much "
+        "stiffer part by a rigid obstacle or a guide, or lower its modulus; this changes no "
+        "visible result");
 }
 
 /// An interference fit moves nodes by less than their distance; more is a body in a wrong
@@ -56,18 +58,16 @@ void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &inter
    if (overlap <= 1) { return; }
    warn("the bodies overlap by ", -gap[deepest], " at (", interface.position(deepest, 0), ", ",
         interface.position(deepest, 1), "), which is ", overlap,
-        " distances of nodes: small displacements do not open that, see that both meshes "
-        "are in "
-        "their places and in one unit");
+        " distances of nodes. Small displacements cannot open such an overlap: check that both "
+        "meshes are in place and in the same unit");
 }
 
 void warn_of_left_out(const InterfaceReport &interface)
 {
    if (interface.left_out <= 0) { return; }
    warn("interface '", interface.name, "': ", interface.left_out,
-        " of it is faced between nodes of the side that carries them, where none can bear, "
-        "and carries nothing: key 'slave' may name the other side, or elements be finer "
-        "there");
+        " of its length (about an axis: of its area) faces the other side, but no contact node "
+        "there can bear: choose the other side by key 'slave', or use finer elements there");
 }
 
 void warn_of_loose_bodies(const OwnBodies &own)
@@ -87,10 +87,10 @@ void warn_of_loose_bodies(const OwnBodies &own)
       if (reduction.bodies[b].free_motions.cols() == 0 || least <= 0) { continue; }
       const std::string &name = reduction.bodies[b].name;
       warn("body ", (name.empty() ? std::to_string(b + 1) : name),
-           " is free and touches nothing at rest, the least gap is ", least,
-           ": the first force moves it until it touches, all at once, and a march may not go "
-           "on from there; hold what nothing decides (a turn without friction), place it so "
-           "that it touches, or move it there by a guide");
+           " is free and touches nothing at rest (the least gap is ", least,
+           "). The first force moves it in one step until it touches, and a march may fail "
+           "from there: place it so that it touches, move it there by a guide, or hold a "
+           "motion that nothing resists (a rotation without friction)");
    }
 }
 
@@ -111,8 +111,7 @@ void warn_of_thin_wall(const SmoothSides &sides, const std::string &body, int or
         ", that of the curves ", at.wall + at.off, ": the body is ",
         share > 0 ? "softer" : "stiffer", " than it should be, its wall by about ",
         2. / 3 * std::abs(share), " in tension and by ", 2 * std::abs(share),
-        " in bending (estimates); a mesh of more or of curved edges there (in Gmsh: -order 2) "
-        "has the wall as it is");
+        " in bending (estimates). Use more edges there, or a curved mesh (in Gmsh: -order 2)");
 }
 
 void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
@@ -187,15 +186,14 @@ ChordalError warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p
    }
    if (!worst) { return shares; }
    warn("interface '", worst->name,
-        "': its elements are chords of curves, which leaves the gap unknown by about ", most,
+        "': its elements are chords of curves, so that the gap is uncertain by about ", most,
         ": ",
-        known ? told("to close that takes ", shares.of_peak,
-                     " of the largest pressure, and changes that of a single node by up to ",
-                     shares.at_a_node, " of the largest (estimates)")
-              : "nothing bears, and the curves may",
-        "; key geometry: smooth follows the curves where the vertices tell them, a mesh of "
-        "elements of a higher order (in Gmsh: -order 2) does so everywhere, or key 'gap' may "
-        "say what the gap is");
+        known ? told("this changes the largest pressure by up to ", shares.of_peak,
+                     " of it, and that of a single node by up to ", shares.at_a_node,
+                     " of the largest (estimates)")
+              : "no node bears, but the curves may",
+        ". Take key geometry: smooth, which follows curves that the vertices show, a mesh of a "
+        "higher order (in Gmsh: -order 2), or give the gap by key 'gap'");
    return shares;
 }
 
@@ -229,9 +227,9 @@ void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)
       if (!bears) { continue; }
       const std::string &name = reduction.bodies[b].name;
       warn("body " + (name.empty() ? std::to_string(b + 1) : name) +
-           " bears with linear elements beside the axis, whose node on it takes no force: the "
-           "pressure next to it is wrong by some 5 % or more however fine they are; those of "
-           "order 2 have no such error");
+           " has linear elements beside the axis, whose node on the axis takes no force. The "
+           "pressure of the next node is wrong by about 5 % or more on any mesh: use elements "
+           "of order 2");
    }
 }
 
@@ -347,10 +345,10 @@ void SidesThatBear::warn() const
    miniapp::warn(
       corners_
          ? told("interface '", face_.name, "': its side turns by ", angle, " degrees ", place,
-                ", where it bears: a contact node has one normal, forces and zones are wrong "
-                "there; each face must be an interface of its own, or a curve have more nodes")
+                ", where it bears. A contact node has one normal, so forces and zones are "
+                "wrong there: make each face a separate interface, or give a curve more nodes")
          : told("node ", worst_.index, " ", place, " bears although its normal is ", angle,
-                " degrees off that of the rigid line: forces and zones are wrong there, name "
+                " degrees off that of the rigid line. Forces and zones are wrong there: name "
                 "no boundary around a corner as contact"));
 }
 

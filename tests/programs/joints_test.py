@@ -51,7 +51,7 @@ def test_about_an_axis_carry_a_uniform_pressure(run):
     linear = run.case(keys)
     near(linear.interface("lower")["force_y"], 0.9 * math.pi * 4, 1e-10)
     for name in ("low", "middle", "high"):
-        assert f"body {name} bears with linear elements" in linear.output
+        assert f"body {name} has linear elements" in linear.output
     # Rings have no axis.
     run.block("low.mesh", 1, 2, 8, 0, 1, 2)
     run.block("middle.mesh", 1, 2, 5, 1, 2, 2)
@@ -225,7 +225,7 @@ def test_of_rings_tell_what_chords_take(run):
         assert said == "" and wrong < 0.06
     # Chords so long that sides that overlap are apart, and elements that follow the arcs.
     for overlap in (d, 0.1 * d):
-        assert "nothing bears, and the curves may" in press(9, 1, None, overlap)[0]
+        assert "no node bears, but the curves may" in press(9, 1, None, overlap)[0]
     assert press(9, 1, None, -20 * d)[0] == ""  # a clearance beyond doubt
     # What was pressed and is no more is known by what it was.
     run.block("plane.mesh", -2, 2, 24, -2, 0, 6)
