@@ -174,7 +174,7 @@ void design_contact(Study &study)
            chosen.weights.size(), " entries, --loads has ", chosen.loads.size());
 
    require(choice.loads.empty() || choice.coat.empty(),
-           "options --choose and --coat: a design chooses one of them");
+           "options --choose and --coat cannot be used together: take one of them");
 
    DesignProblem problem;
    problem.problem = make_problem(study, chosen);

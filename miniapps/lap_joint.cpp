@@ -316,9 +316,9 @@ void lap_joint(Study &study)
    if (widths.empty()) { widths = {options.widths[0]}; }
    options.widths = joined_once(options.widths, widths);
    require(bolts == 1 || joint.paraview.empty(),
-           "option --paraview: frames are of one bolt, there are ", bolts);
-   require(bolts == 1 || loads.empty(),
-           "option --sweep-load: sweeps are of one bolt, there are ", bolts);
+           "option --paraview writes frames for one bolt only, there are ", bolts);
+   require(bolts == 1 || loads.empty(), "option --sweep-load needs a single bolt, there are ",
+           bolts);
    const std::vector<std::vector<int>> all = orders(tightening, options.bolts);
 
    joint.scene = make_lap_joint(options);

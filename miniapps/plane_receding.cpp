@@ -236,7 +236,7 @@ void plane_receding(Study &study)
    if (obstacle == "th0")
    {
       require(options.domain == 0 && options.side == 0,
-              "option --obstacle th0 is a block of its own, without --domain and --side");
+              "option --obstacle th0 makes its own block: leave out --domain and --side");
       options.length = 20;
       options.domain = 200;
       options.side = 80;

@@ -32,7 +32,7 @@ void DiscOptions::validate() const
       require(a > 0 && a <= disc_radius, "option --load-radius is ", a,
               ", must be above 0 and at most the disc's radius ", disc_radius, " (in t)");
       require(std::count(load_radii.begin(), load_radii.end(), a) == 1, "the load radius ", a,
-              " is given twice: each is a load pattern of its own");
+              " is given twice: each value makes a load pattern, so give it once");
    }
 }
 

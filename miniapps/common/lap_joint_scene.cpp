@@ -25,7 +25,7 @@ void LapJointOptions::validate() const
       require(w > 0 && 0.5 * w <= protrusion, "option --width or --sweep-width: ", w,
               " must be positive and within the protrusion ", protrusion, " to both sides");
       require(std::count(widths.begin(), widths.end(), w) == 1, "the width ", w,
-              " is given twice: each is a load pattern of its own");
+              " is given twice: each value makes a load pattern, so give it once");
    }
    for (double x : bolts)
    {

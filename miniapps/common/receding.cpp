@@ -35,7 +35,7 @@ void RecedingOptions::validate() const
       require(n > 0 && n < length, "option --overhang or --map: ", n,
               " must be between 0 and the strip's length ", length, " (in t)");
       require(std::count(overhangs.begin(), overhangs.end(), n) == 1, "the overhang ", n,
-              " is given twice: each is a load pattern of its own");
+              " is given twice: each value makes a load pattern, so give it once");
    }
 }
 

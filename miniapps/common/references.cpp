@@ -95,7 +95,7 @@ double mesh_share(const ordered_json &term, const Meaning &meaning)
    words >> name;
    const ordered_json found = meaning(name);
    require(found.is_number(), "references.json: the mesh share '", term.get<std::string>(),
-           "' names nothing that is a number in this run");
+           "' is not the name of a number of this run");
    return sign == "*" ? factor * found.get<double>() : factor / found.get<double>();
 }
 

@@ -84,7 +84,7 @@ std::vector<SweptKey> read_keys(const std::string &statements)
 std::string negative(const std::string &word)
 {
    require(as_number(word).is_number(), "option --sweep: '", word,
-           "' is the value of a key with a minus, must be a number");
+           "' must be a number, because a key with a minus has the negative value");
    return word[0] == '-' ? word.substr(1) : '-' + word;
 }
 

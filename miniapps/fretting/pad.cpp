@@ -161,8 +161,8 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    solved.steady_cycle = run.report.steady_cycle;
    if (solved.steady_cycle == 0)
    {
-      warn("the cycle of the finite element pad is not steady yet: energies and stresses are "
-           "those of its fourth");
+      warn("the cycle of the finite element pad is not steady after four cycles: energies and "
+           "stresses are those of the fourth");
    }
    solved.half_width = edges[0].half_width;
    solved.spacing = smallest_step(options.grid) / pad.order;

@@ -985,12 +985,12 @@ TEST(CondenseMatrix, NeighboursAreAtDifferentPlaces)
    const Frame frame(3, 2, true);
    ContactLine line = frame.line();
    line.nodes[2].position = line.nodes[1].position;
-   expect_input_error([&] { line.validate(); }, "two neighbours are at (1, 0)");
+   expect_input_error([&] { line.validate(); }, "two neighbouring nodes are both at (1, 0)");
    ContactLine two = frame.line();
    two.nodes.resize(2);
    two.chains = {{0, 2}};
    two.nodes[1].position = two.nodes[0].position;
-   expect_input_error([&] { two.validate(); }, "two neighbours are at (0, 0)");
+   expect_input_error([&] { two.validate(); }, "two neighbouring nodes are both at (0, 0)");
 }
 
 TEST(CondenseMatrix, SaysWhatIsWrong)

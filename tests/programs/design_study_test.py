@@ -90,7 +90,7 @@ ROW = "--reduced problems/lap_joint.json --history 'T=0; T=0.02' "
 
 @pytest.mark.parametrize("options, words", [
     ("--choose 'P; Q'", "--choose does nothing in this run: it is of --reduced"),
-    (ROW + "--choose 'T; P' --coat '0.1 0.5'", "chooses one of them"),
+    (ROW + "--choose 'T; P' --coat '0.1 0.5'", "cannot be used together"),
     ("--coat '0.1 0.5' --profile crown", "--choose and --coat take its place"),
     ("--coat '0.5 0.1'", "must be the least friction and the most"),
     ("--coat '0.5 0.9'", "friction is from 0.3 to 0.3"),

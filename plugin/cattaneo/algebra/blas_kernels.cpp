@@ -71,7 +71,7 @@ std::string BlasKernels::statement() const
    const std::string sentence = "OpenBLAS works with its kernels " + name;
    if (better.empty()) { return sentence; }
    return sentence +
-          ", which are far below what this processor can do (matrix products take some five "
+          ", which are far slower than this processor allows (matrix products take about five "
           "times as long): set OPENBLAS_CORETYPE=" +
           better + " before the program starts";
 }

@@ -54,8 +54,8 @@ void check_spacing(const ContactLine &line, const LineChain &chain)
    for (Eigen::Index k = 0; k + 1 < chain.nodes; ++k)
    {
       const Eigen::Vector2d at = place(k);
-      require(place(k + 1) != at, "contact line: two neighbours are at ", at,
-              ", must be at different places: merge the nodes that were to be one");
+      require(place(k + 1) != at, "contact line: two neighbouring nodes are both at ", at,
+              ", must be at different places: merge them");
    }
    for (Eigen::Index k = 0; k < count && chain.nodes > 2; ++k)
    {

@@ -118,7 +118,7 @@ void ContactState::require_of(const ReducedProblem &problem) const
    const double allowed = std::max(1e-6 * size.maxCoeff(), 1e-9 * peak_force);
    require(off <= allowed, "contact state: the forces of node ", row % problem.nodes(),
            " differ by ", off,
-           " from those of its displacements and loads: it is of another reduced problem");
+           " from those of its displacements and loads: it belongs to another reduced problem");
 }
 
 void ContactState::validate(const ReducedProblem &problem) const

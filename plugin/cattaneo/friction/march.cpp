@@ -47,7 +47,7 @@ void check_loads(const FrictionSolver &solver, const LoadHistory &history,
               solver.problem().patterns[l].name, "' is ", loads[l], " at ",
               begins ? "its first point" : "time " + exact_text(state.time), ", and ",
               state.multipliers[l],
-              at_rest ? " before any load; begin with a point of no loads"
+              at_rest ? " before any load: begin with a point without loads"
                       : " in the state that it goes on from; begin with the loads of that");
    }
 }

@@ -395,7 +395,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    const MatrixXd flexible = F(kept, kept);
    DenseCholesky factor;
    require(factor.compute(flexible),
-           "half-plane: its flexibility is not positive definite, the depth ", body.depth,
+           "half-plane: its flexibility is not positive definite. The depth ", body.depth,
            " that displacements are relative to must be larger, or Poisson's ratio ",
            body.material.poisson, " further from its limits");
    const Eigen::SparseMatrix<double> M = kept_of(mass, kept);
@@ -511,7 +511,8 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
          standing.push_back({k, &chain, (place - half_plane.point).dot(tangent(half_plane))});
       }
    }
-   require(!standing.empty(), "half-plane: no interface has it as the second side, one must");
+   require(!standing.empty(),
+           "half-plane: it is at no interface, must be the second side of one");
    // The lines of bodies on it run in the opposite direction of its own.
    std::stable_sort(standing.begin(), standing.end(),
                     [](const Standing &a, const Standing &b) { return a.along > b.along; });

@@ -75,8 +75,8 @@ Eigen::VectorXd Heights::at(const Eigen::MatrixX2d &points) const
       const auto i = static_cast<Index>(cell[0]), j = static_cast<Index>(cell[1]);
       result[k] = (1 - share[1]) * ((1 - share[0]) * z(i, j) + share[0] * z(i + 1, j)) +
                   share[1] * ((1 - share[0]) * z(i, j + 1) + share[0] * z(i + 1, j + 1));
-      require(std::isfinite(result[k]), "heights: next to the point ", point,
-              " the surface was not measured");
+      require(std::isfinite(result[k]), "heights: beside the point ", point,
+              " the surface was not measured: points must lie within the measured part");
    }
    return result;
 }

@@ -54,9 +54,9 @@ SurfaceTrace::SurfaceTrace(Index unknowns, std::vector<SurfaceElement> elements)
               " to ", element.x[order],
               " along the surface turns back on itself, its nodes must follow each other along "
               "the surface");
-      require(element.x[0] >= end, "half-plane: a contact element begins at ", element.x[0],
-              " along the surface, before another ends at ", end,
-              ", elements must lie side by side");
+      require(element.x[0] >= end,
+              "half-plane: two contact elements overlap on the surface, one begins at ",
+              element.x[0], ", the other ends at ", end, ": elements must lie side by side");
       end = element.x[order];
    }
 }

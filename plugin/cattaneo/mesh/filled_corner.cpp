@@ -43,7 +43,7 @@ FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point)
          corner.attribute = attribute;
       }
    }
-   require(corner.attribute > 0, "the point ", point, " is no vertex of the mesh");
+   require(corner.attribute > 0, "the point ", point, " is not a vertex of the mesh");
    return corner;
 }
 

@@ -47,8 +47,8 @@ std::vector<std::string> SmallDisplacements::warnings() const
          std::ostringstream text;
          text << "interface '" << face.name << "': " << what << most.value << " at ("
               << face.position(most.node, 0) << ", " << face.position(most.node, 1)
-              << "), which is " << most.share << of << ": displacements are taken for small, "
-              << then;
+              << "), which is " << most.share << of
+              << ": displacements are assumed to be small, " << then;
          all.push_back(text.str());
       };
       if (slip_[k].share > 1)

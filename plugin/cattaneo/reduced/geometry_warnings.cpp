@@ -93,12 +93,11 @@ void say_normals(const ReducedProblem &problem, const InterfaceReport &face,
       at(face.position.row(worst)), ", which bears, the normals of both bodies differ by ",
       turn, " rad (", in_degrees * turn, " degrees), which is not small against friction, ", f,
       count > 1 ? sentence(" (so they do at ", count - 1, " more)") : "",
-      ": the node has the mean of both, by the normal of either body tangential over normal "
-      "force would be ",
+      ": the node has the mean of both. With the normal of either body alone its tangential "
+      "over normal force would change by ",
       0.5 * turn,
-      " more or less; whether it sticks, zones of slip and the loss hang on that. "
-      "Sides that touch must face each other: move the one that is off, or let the "
-      "contact end before it"));
+      ", so stick, slip zones and loss depend on it. Sides that touch must face each other: "
+      "move the one that is out of place, or let the contact end before it"));
 }
 
 /// Nodes with friction that supports hold along an axis on which their frames lean.
@@ -119,11 +118,11 @@ void say_held(const Reduction &reduction, const InterfaceReport &face,
          sentence("interface '", face.name, "': supports hold node ", node, " at ",
                   at(face.position.row(i)), ", which bears, along ",
                   component_name(formulation, nearest_axis(tangent)), ", ", in_degrees * off,
-                  " degrees off the contact there: how much of its tangential force is the "
-                  "support's and how much is friction is not determined, it is taken for the "
-                  "support's; the normal force hangs on that by ",
+                  " degrees off the contact there. Its tangential force cannot be split into "
+                  "support and friction, and all of it counts as the support's. This changes "
+                  "the normal force by up to ",
                   std::tan(off) * problem.friction[node],
-                  " of itself. Friction is certain where supports leave contact nodes free"));
+                  " of itself. Leave contact nodes free of supports to have friction there"));
    }
 }
 
@@ -340,16 +339,14 @@ void say_polygon(const Reduction &reduction, const InterfaceReport &face,
          place = middle;
       }
       if (count == 0) { continue; }
-      said.push_back(sentence(
-         "interface '", face.name, "': ", count, " straight edges of ",
-         called(reduction.bodies, face.bodies[k]), ", most at ", at(place),
-         ", stay a polygon, while the other side is a smooth curve that their vertices fit: "
-         "the "
-         "gap between them is wrong by up to ",
-         most, " where it is ", gap,
-         " (the least beside it), and nodes may bear nothing that should: give the side more "
-         "edges (an arc has five or more), one curve of its file, or curved elements, or take "
-         "both as meshed"));
+      said.push_back(sentence("interface '", face.name, "': ", count, " straight edges of ",
+                              called(reduction.bodies, face.bodies[k]), ", most at ", at(place),
+                              ", stay a polygon, but their vertices fit the smooth curve of "
+                              "the other side: the gap between them is wrong by up to ",
+                              most, " where it is ", gap,
+                              " (the least beside it), and nodes that should bear may not. "
+                              "Give the side more edges (an arc has five or more), one curve "
+                              "of its file, or curved elements, or take both as meshed"));
    }
 }
 
