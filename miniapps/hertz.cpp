@@ -56,7 +56,7 @@ void hertz(Study &study)
    if (friction == 0)
    {
       require(shear.empty() || !study.options().says("shear"),
-              "option --shear is of Q/fP, and --friction 0 leaves no f P");
+              "option --shear is Q/(fP), so that --friction must be above 0");
       shear.clear();
    }
 

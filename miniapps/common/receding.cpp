@@ -28,7 +28,7 @@ void RecedingOptions::validate() const
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
    require(side == 0 || (side > 1 && domain > 0), "option --side is ", side,
            domain > 0 ? ", must be 0 or above 1 (in t)"
-                      : ", is of a block: --domain must say how deep it is");
+                      : ", belongs to a block: --domain must give its depth");
    require(!overhangs.empty(), "there is no overhang");
    for (double n : overhangs)
    {
