@@ -10,8 +10,8 @@ namespace cattaneo
 
 struct FrictionSystem;
 
-/// Outcome of a friction solve or a march. All but the first are answers about the problem or
-/// honest failures; none is an exception.
+/// Outcome of a friction solve or a march. All but the first tell something about the problem,
+/// or a failure of the solver; none is an exception.
 enum class FrictionStatus
 {
    converged,
@@ -30,13 +30,12 @@ const char *name(FrictionStatus status);
 /// How an increment is solved.
 enum class FrictionMethod
 {
-   automatic,   ///< One method after the other, as docs/increments.md tells. With one
-                ///< tangential component or none: Newton's steps on node states after a few
-                ///< Gauss–Seidel sweeps, Lemke's method, weak springs on the rigid motions of
-                ///< free bodies, and Lemke's method from random places. With two: Newton's
-                ///< steps without and with sweeps, weak springs, and damped Newton from several
-                ///< starts, also random ones. At last free bodies may stay where springs that
-                ///< bear nothing have them.
+   automatic, ///< One method after the other, as docs/increments.md tells. With one tangential
+              ///< component or none: Newton's steps on node states after a few Gauss–Seidel
+              ///< sweeps, Lemke's method, weak springs on the rigid motions of free bodies, and
+              ///< Lemke's method from random places. With two: Newton's steps without and with
+              ///< sweeps, weak springs, and damped Newton from several starts, also random
+              ///< ones. At last free bodies may stay where springs hold them without force.
    gauss_seidel ///< node by node only (thesis 3.5, appendix D)
 };
 
@@ -44,12 +43,12 @@ enum class FrictionMethod
 struct FrictionSettings
 {
    FrictionMethod method = FrictionMethod::automatic; ///< the other one is for comparison
-   /// Largest violation of an equation or a law over the largest nodal force so far (of the
-   /// loads with the contact clamped, of the contact, of initial slip or interference).
-   /// Where round-off is larger than this, round-off is the limit (reported).
+   /// Largest violation of an equation or a law, over the largest nodal force so far (of the
+   /// loads with the contact clamped, of the contact, of initial slip or interference). If
+   /// round-off is larger than this, round-off is the tolerance, which the report tells.
    double tolerance = 1e-12;
-   /// Gauss–Seidel sweeps before Newton's steps; with two tangential components an attempt
-   /// without any comes before.
+   /// Gauss–Seidel sweeps before Newton's steps. With two tangential components an attempt
+   /// without sweeps comes first.
    int sweeps = 2;
    int max_attempts = 3; ///< with two tangential components: attempts after sweeps, each after
                          ///< twice the sweeps of the one before
@@ -66,11 +65,11 @@ struct IncrementReport
    FrictionStatus status =
       FrictionStatus::stalled; ///< a solution was found if converged or not_unique
    std::string message; ///< empty if converged; docs/increments.md says where each comes from
-   /// If a solution was found: the largest violation by it of the equations as given and of the
-   /// laws, over the largest force so far, as it is found in double precision. The true one is
-   /// larger by the round-off at most. If none was found no state is returned. These are then a
-   /// measure of the way that was left (the natural map), where the message names them: from
-   /// the place where the sweeps before all other methods ended. Else they tell nothing.
+   /// If a solution was found: its largest violation of the given equations and of the laws,
+   /// over the largest force so far, computed in double precision. The true one is larger by
+   /// the round-off at most. If none was found no state is returned. If the message names these
+   /// numbers, they are then residuals of the natural map where the first sweeps ended.
+   /// Otherwise they mean nothing.
    double residual_normal = 0;     ///< of normal displacements and forces
    double residual_tangential = 0; ///< of slip and friction forces
    double round_off = 0;           ///< estimate of what arithmetic can reach, relative
@@ -84,8 +83,8 @@ struct IncrementReport
     With two tangential components a node the friction force is a vector in the disc
     |q| <= f p, opposed to the slip increment.
 
-    Where there are several answers the one found need not be the nearest to the state at the
-    start: if a body jumps there, that is not reported.
+    If there are several solutions, the one found need not be the nearest to the state at the
+    start, and a jump of a body to it is not reported.
 
     The rate is replaced by the difference over the increment. Nothing is remembered between
     increments but factors of matrices, which depend on the set of node states only: the same
@@ -93,19 +92,19 @@ struct IncrementReport
 class FrictionSolver
 {
 public:
-   /// Validates both. The problem is copied; friction zero at all nodes removes the tangential
-   /// unknowns once and for all.
+   /// Validates both. The problem is copied. If friction is zero at all nodes, the tangential
+   /// unknowns are eliminated here, for all increments.
    FrictionSolver(const ReducedProblem &problem, const FrictionSettings &settings = {});
-   /// The same of a problem that is shared, not copied, and must stay as it is: a stiffness of
-   /// thousands of nodes fills memory.
+   /// The same with a problem that is shared and not copied, as a stiffness of thousands of
+   /// nodes fills memory. It must not be changed.
    FrictionSolver(std::shared_ptr<const ReducedProblem> problem,
                   const FrictionSettings &settings = {});
    ~FrictionSolver();
    /// Solvers can be moved, not copied.
    FrictionSolver(FrictionSolver &&) noexcept;
 
-   /// Advances `state` to the loads `multipliers`. Unless a solution was found (converged,
-   /// not_unique) the state is left as it was. InputError if the state is none of the problem
+   /// Advances `state` to the loads `multipliers`. Unless a solution is found (converged,
+   /// not_unique) the state stays as it was. InputError if the state does not fit the problem
    /// (ContactState::validate), or if a multiplier is missing or not finite.
    IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
 
@@ -113,18 +112,19 @@ public:
    const ReducedProblem &problem() const;
    /// As they were given.
    const FrictionSettings &settings() const;
-   /// Another initial gap of each node, size n, from the next increment on: a gap that wears
-   /// opens between two increments. InputError for another size or an entry that is not finite.
+   /// Sets another initial gap of each node, size n, from the next increment on, as wear opens
+   /// the gap between two increments. InputError for another size or an entry that is not
+   /// finite.
    void set_gap(const Eigen::VectorXd &gap);
    /// Is friction zero at all nodes?
    bool frictionless() const;
-   /// Is `after` the end of an increment from `before`? By the equations and the laws as they
-   /// are given, however it was found: converged, or not_unique if a closed node has friction
-   /// above its critical value (see CriticalFriction), with its residuals; or stalled with what
-   /// it breaks. `slip_error`: how well each slip between them is known, a length >= 0 for each
-   /// tangential displacement, as where the closed nodes hardly hold a body; a shorter slip
-   /// need not oppose its friction. Empty: to round-off. InputError as solve(), and for another
-   /// size.
+   /// Is `after` the end of an increment from `before`, by the equations and the laws as they
+   /// are given, however it was found? The answer is converged, or not_unique if a closed node
+   /// has friction above its critical value (see CriticalFriction), both with residuals;
+   /// otherwise stalled, with the violation. `slip_error` has the error of each slip between
+   /// them, a length >= 0 for each tangential displacement, for instance if the closed nodes
+   /// hardly hold a body. A shorter slip need not oppose its friction. Empty: the error is
+   /// round-off. InputError as solve(), and for another size.
    IncrementReport judge(const ContactState &before, const ContactState &after,
                          const Eigen::VectorXd &slip_error = {});
    /// What was done since it was made.

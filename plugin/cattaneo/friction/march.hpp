@@ -37,34 +37,37 @@ enum class Stepping
 /// How a history is marched. The defaults need no tuning.
 struct MarchSettings
 {
-   FrictionSettings friction;             ///< of every increment
-   int increments = 20;                   ///< increments of each piece of the history
-   std::vector<int> increments_of_piece;  ///< overrides `increments` for the points' pieces
-   Stepping stepping = Stepping::exact;   ///< how their ends are reached
-   bool single_increment_if_exact = true; ///< false: cut even where one increment is exact
-   /// Events of an exact path end the increments, in place of stops: the observer and the
-   /// report have their states, and MarchReport::changes lists the changes with which the next
-   /// steps set out. Else they are only counted.
+   FrictionSettings friction;            ///< of every increment
+   int increments = 20;                  ///< increments of each piece of the history
+   std::vector<int> increments_of_piece; ///< increments of each piece, in place of `increments`
+   Stepping stepping = Stepping::exact;  ///< how their ends are reached
+   bool single_increment_if_exact =
+      true; ///< false: take all increments even if a single one is exact
+   /// Increments end at the events of an exact path, not at stops. The observer and the report
+   /// get the states there, and MarchReport::changes lists the changes with which the next
+   /// steps begin. Otherwise events are only counted.
    bool every_event = false;
-   int max_halvings = 12;            ///< of an increment, for advancing contact or failure
-   bool stop_at_steady_state = true; ///< the cycles that are left would be the same
-   /// Steady: slip at the end of a cycle differs from that one or two cycles before by less
-   /// than this times the largest slip of the history.
+   int max_halvings =
+      12; ///< halvings of an increment, if contact advances or no solution is found
+   bool stop_at_steady_state = true; ///< the remaining cycles would be the same
+   /// A cycle is steady if the slip at its end differs from that one or two cycles before by
+   /// less than this share of the largest slip of the history.
    double steady_tolerance = 1e-10;
-   /// Keep every IncrementRecord in the report; else only the observer sees them, and the
-   /// report of a march of millions of increments stays small.
+   /// Keep every IncrementRecord in the report. Otherwise only the observer gets them, so that
+   /// the report of millions of increments stays small.
    bool keep_increments = true;
-   /// Where increments are taken that are not exact, march again to say how wrong their loss
-   /// may be, see MarchReport::loss_error: along the exact path, or, where there is none, with
-   /// half and a quarter of the increments. That may take as long again.
+   /// If increments are taken that are not exact, march again to estimate the error of their
+   /// loss, see MarchReport::loss_error. The second march follows the exact path; if there is
+   /// none, two marches take half and a quarter of the increments. This may take as long as the
+   /// march itself.
    bool loss_error = false;
-   Monitor monitor; ///< hears of progress, and may stop the march
+   Monitor monitor; ///< is told the progress, and may stop the march
 
    /// InputError naming the setting, its value and what is allowed.
    void validate() const;
 };
 
-/// One accepted increment, on an exact path the way from one stop to the next.
+/// One accepted increment; on an exact path the part from one stop to the next.
 struct IncrementRecord
 {
    double time = 0;             ///< at its end
@@ -75,38 +78,39 @@ struct IncrementRecord
    int separation = 0;          ///< … that are apart
    int forward_slip = 0;        ///< … that slip forward, or in no direction
    int backward_slip = 0;       ///< … that slip backward
-   int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
-   /// Lost by friction, ½ f (p₀ + p₁)|Δv| of each node: what wears. Never negative.
+   int slip = 0; ///< with two tangential components: nodes that slip in any direction
+   /// Energy lost by friction, ½ f (p₀ + p₁)|Δv| of each node, which causes wear. Never
+   /// negative.
    double dissipation = 0;
-   /// -½(q₀ + q₁)·Δv of all nodes: with the other works it balances the energy to round-off.
-   /// On an exact path it is the dissipation; with two tangents, where the direction of slip
-   /// turns within an increment, it is less by the second order.
+   /// -½(q₀ + q₁)·Δv of all nodes: with the other works it balances the energy to round-off. On
+   /// an exact path it is the dissipation. With two tangents it is smaller, by the second order
+   /// of the increment, if the direction of slip turns within the increment.
    double friction_work = 0;
-   /// Work of the loads, trapezoidal (exact for linear increments, and on an exact path); of
-   /// the contact's part of the conjugates alone where H is not known.
+   /// Work of the loads by trapezoids (exact for linear increments, and on an exact path). If H
+   /// is not known, only that of the contact's part of the conjugates.
    double external_work = 0;
-   double residual_normal = 0;     ///< see IncrementReport; the largest on the way, as the next
+   double residual_normal =
+      0; ///< see IncrementReport; the largest within the increment, also below
    double residual_tangential = 0; ///< see IncrementReport
    double round_off = 0;           ///< see IncrementReport
-   /// The method that found it: one of IncrementReport's, or of the exact path ("event path",
-   /// and how its rates were found where not by Newton), or "unchanged" where the loads stay.
+   /// The method that found it: one of IncrementReport's, or that of the exact path ("event
+   /// path", and how its rates were found if not by Newton), or "unchanged" if the loads stay.
    const char *found_by = "";
-   /// A march taken up from the state here goes on to the last bit. False amid an exact path:
-   /// to round-off.
+   /// A march that is resumed from this state has the same bits. False within an exact path: it
+   /// is the same to round-off.
    bool resumes = true;
    /// Node that comes to the boundary of its state, or to a bend of its law, where the
-   /// increment ends, see MarchSettings::every_event. In the state of this row it still has its
-   /// old state; the next step sets out with the new one. The loads are those at which it comes
-   /// there. -1: there is no such node, and the loads are those of the history at the row's
-   /// time.
+   /// increment ends, see MarchSettings::every_event. In this row it still has its old state;
+   /// the next step begins with the new one. The loads are those at which it gets there. -1:
+   /// there is no such node, and the loads are those of the history at the row's time.
    Eigen::Index event = -1;
 };
 
-/// What a state alone says of it: time, multipliers, conjugates and numbers of nodes.
+/// The entries that follow from a state alone: time, multipliers, conjugates and numbers of
+/// nodes.
 IncrementRecord record_of(const ReducedProblem &problem, const ContactState &state);
 
-/// The first state of a march of which there may be others: from there on its states are one of
-/// several.
+/// The first state of a march that may not be unique: from here on there may be other states.
 struct NotUnique
 {
    double time = 0;             ///< of the load history
@@ -114,28 +118,28 @@ struct NotUnique
    std::string message;         ///< the node and its friction
 };
 
-/** How far the loss of a march by increments may be from that of its path: the whole loss, and
-    the loss of each of its cycles.
+/** Error of the loss of a march by increments, compared with that of its exact path: of the
+    whole loss, and of the loss of each cycle.
 
-    Increments know the path at their ends alone: a node that turns round or comes to rest
-   within one is given one way and one direction. The loss is wrong by that to the first order
-   of the increments, the balance of energy to the second: MarchReport::energy_imbalance is no
-   measure of it. */
+    Increments know the path at their ends alone. A node that reverses or comes to rest within
+    one slips in one direction only. This changes the loss by the first order of the increments,
+    but the balance of energy by the second, so that MarchReport::energy_imbalance does not
+    measure it. */
 struct LossError
 {
-   /// In the unit of the loss, at least 0. NaN: it was not asked for, or not found.
+   /// The error, in the unit of the loss, at least 0. NaN: it was not requested, or not found.
    double value = std::numeric_limits<double>::quiet_NaN();
-   /// True: the exact path was followed beside the march from the same state, and the value is
-   /// the difference: a bound, to round-off. False: an estimate, by two marches with other
-   /// increments.
+   /// True: the value is the difference from the exact path, which was followed from the same
+   /// state: a bound, to round-off. False: an estimate, by two marches with other increments.
    bool bound = false;
    /// The loss of this march without increments, by extrapolation, where it holds: thirty nodes
    /// or more share the loss, and its changes from march to march fall in one ratio (0.15 to
    /// 0.65; increments of each piece are a multiple of four, or fewer than four). NaN: it does
    /// not, or the value is a bound.
    double extrapolated = std::numeric_limits<double>::quiet_NaN();
-   std::string by;    ///< what was marched beside it, or why nothing is known; one sentence
-   Counters counters; ///< of that march; not in the report's own
+   std::string
+      by; ///< what was marched for comparison, or why the error is not known; one sentence
+   Counters counters; ///< of the march for comparison; not included in those of the report
 };
 
 /// What a march came to.
@@ -153,51 +157,53 @@ struct MarchReport
    /// `stopped`: time and multipliers of the state.
    double event_time = 0;
    Eigen::VectorXd event_multipliers;   ///< in the order of the patterns
-   std::optional<NotUnique> not_unique; ///< also where the march ended later for another reason
+   std::optional<NotUnique> not_unique; ///< also if the march ended later for another reason
    std::vector<IncrementRecord> increments; ///< see MarchSettings::keep_increments
    std::vector<CycleRecord> cycles;         ///< of those that were marched
-   /// Stepping::exact with one tangential component or none: how many changes of state of
-   /// nodes there were. Of an increment that was taken instead of the path they are the
-   /// differences of the states at both ends.
+   /// With Stepping::exact and one tangential component or none: number of changes of state of
+   /// nodes. For an increment that replaced the path this counts the differences of the states
+   /// at both ends.
    long events = 0;
-   /// With MarchSettings::every_event the list of them, in the order of the path. A step lists
-   /// the changes with which it sets out. No step follows the event at which a march ends, so
-   /// that its change is not among them. A piece that took one increment lists its changes at
-   /// its start.
+   /// With MarchSettings::every_event the list of these changes, in the order of the path. A
+   /// step lists the changes with which it begins. No step follows the event at which a march
+   /// ends, so that its change is not among them. A piece that took one increment lists its
+   /// changes at its start.
    std::vector<StateChange> changes;
-   int fallbacks = 0;           ///< increments made where the exact path did not go on
-   std::string fallback_reason; ///< of the first of them, a sentence of docs/increments.md
-   int stalled = 0;      ///< increments that were halved as none was found; probes do not count
-   int steady_cycle = 0; ///< first cycle of the steady state; 0: not reached
+   int fallbacks = 0; ///< increments that were taken because the exact path did not go on
+   std::string
+      fallback_reason; ///< reason of the first of them, a sentence of docs/increments.md
+   int stalled =
+      0; ///< increments that were halved because no solution was found; probes do not count
+   int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
    int steady_period = 0; ///< 1 or 2
    /// The error of the loss by friction, with MarchSettings::loss_error.
    LossError loss_error;
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
-   /// normal work, over the largest of them on the way, or a millionth of the elastic energy
-   /// that it began with where none is as large; 0 where it is no more than the round-off of
-   /// these. Normal work, of pressures on nodes that close or open within an increment, is none
-   /// of the path; what it is there changes no state. It is of the second order of the
-   /// increments, and goes to zero faster than the error of the loss: see `loss_error` for
-   /// that.
+   /// normal work, over the largest of these during the march, or over a millionth of the
+   /// initial elastic energy if that is larger. 0 if it is no more than their round-off. Normal
+   /// work is that of pressures on nodes that close or open within an increment; an exact path
+   /// has none. The imbalance is of the second order of the increments and goes to zero faster
+   /// than the error of the loss, for which see `loss_error`.
    double energy_imbalance = 0;
-   /// Error of friction forces where contact advances. They depend on how the loads are cut
-   /// into increments, since friction acts on a node from the beginning of the increment in
+   /// Error of friction forces where contact advances. They depend on the division of the loads
+   /// into increments, because friction acts on a node from the beginning of the increment in
    /// which it closes. This is four times the largest change of a friction force in an
-   /// increment in which a node closed, over the largest force. It is a rule: all of the change
-   /// may be wrong, at the node that closed and at those that it makes slip or stick. It goes
-   /// to zero with the increments, and is 0 where the exact path was followed while nodes
-   /// closed, see Stepping.
+   /// increment in which a node closed, over the largest force. This is a rule of thumb: the
+   /// whole change may be wrong, at the node that closed and at nodes that slip or stick
+   /// because of it. It goes to zero with the increments, and is 0 if the exact path was
+   /// followed while nodes closed, see Stepping.
    double advance_error = 0;
    /// Ends of lines at which contact was cut off, each with the first accepted state in which
-   /// it was so: the results are those of a line that was named too short.
+   /// it was: the results belong to a line that is too short.
    std::vector<CutOffContact> cut_off;
    double largest_residual = 0; ///< of all increments, relative
-   /// Where no first increment was found: how far, at most, bodies that nothing held and that
-   /// touched nothing were moved before the march to where the first loads that push them press
-   /// them on: as rigid bodies, without friction, the nearest such place. The slip of the march
+   /// Largest distance by which free bodies that touched nothing were moved before the march,
+   /// if no first increment was found. They are moved as rigid bodies, without friction, to the
+   /// nearest place where the first loads that push them press them on. The slip of the march
    /// begins there.
    double taken_up_clearance = 0;
-   Counters counters;  ///< of this march (what making the solver took is in the solver's own)
+   Counters
+      counters; ///< of this march (those of making the solver are in the solver's counters)
    double seconds = 0; ///< wall time
 };
 
@@ -218,8 +224,8 @@ MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
                   const MarchObserver &observer = {});
 
-/// The same with a solver made before (many marches of one problem); settings.friction is the
-/// solver's own.
+/// The same with an existing solver, for many marches of one problem. settings.friction is that
+/// of the solver.
 MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
                   const MarchSettings &settings = {}, const MarchObserver &observer = {});
 

@@ -46,8 +46,8 @@ double SteppedPiece::end_of_step(double time) const
 VectorXd SteppedPiece::multipliers(double time) const
 {
    if (time == loads_.end) { return loads_.to; }
-   // Late in a long history the start hides the last digits of a time; equal steps have equal
-   // shares.
+   // Late in a long history the start of a piece hides the last digits of a time, so equal
+   // steps are computed from equal shares.
    const double share = (time - loads_.start) / duration(), steps = std::round(share * steps_);
    return loads_.at(time == end_of(steps) ? steps / steps_ : share);
 }
@@ -80,7 +80,7 @@ MarchRun::MarchRun(FrictionSolver &solver, const LoadHistory &history, ContactSt
 {
 }
 
-/// How much of the way from the start of the march to the end of the history is done.
+/// Share of the history, from the start of the march, that is done.
 double MarchRun::share() const
 {
    return end_ > began_ ? std::min(1.0, (state_.time - began_) / (end_ - began_)) : 1.0;
@@ -116,14 +116,15 @@ bool MarchRun::is_stopped()
    return true;
 }
 
-/// Is there a path from one change of state to the next? Sweeps are of increments.
+/// Is there a path from one change of state to the next? Gauss–Seidel sweeps solve increments
+/// only.
 bool MarchRun::has_path() const
 {
    return problem_.components() == 1 &&
           solver_.settings().method != FrictionMethod::gauss_seidel;
 }
 
-/// First proportional loading, no gap: everything scales with the load, but for the pressures
+/// First proportional loading without a gap: everything scales with the load, except pressures
 /// at which a law of friction bends.
 bool MarchRun::self_similar() const
 {
@@ -131,13 +132,13 @@ bool MarchRun::self_similar() const
    return virgin && problem_.gap.isZero(0) && piece_.loads().from.isZero(0) && !friction_bends_;
 }
 
-/// True where one increment gives the exact end of the piece, however long it is.
+/// True if one increment gives the exact end of the piece, however long it is.
 bool MarchRun::exact_in_one() const
 {
    if (!settings_.single_increment_if_exact) { return false; }
    if (solver_.frictionless() || self_similar()) { return true; }
-   // Normal loading of an uncoupled contact that carries no shear: nothing ever slips. Shear of
-   // 1e-8 of the pressure is what round-off leaves of two equal bodies.
+   // Normal loading of an uncoupled contact without shear: nothing ever slips. For two equal
+   // bodies round-off leaves a shear of 1e-8 of the pressure.
    if (problem_.coupled || !state_.v.isZero(0)) { return false; }
    const VectorXd f = problem_.clamped_forces(piece_.loads().to);
    const double normal = f.tail(problem_.nodes()).cwiseAbs().maxCoeff();
@@ -152,8 +153,8 @@ double MarchRun::first_unbalanced(double failed) const
 {
    const Eigen::Index n = problem_.nodes(), slips = problem_.slips();
    const VectorXd before = problem_.clamped_forces(piece_.multipliers(state_.time));
-   // Each motion that is found cuts nearer to the end. Bounds that bend with the pressure may
-   // hold more than their lines. With one tangent the path finds the end.
+   // Each motion that is found gives a time closer to the end. Bounds that bend with the
+   // pressure may hold more than their lines. With one tangent the path itself finds the end.
    for (int k = 0; k < 20 && !friction_bends_ && problem_.components() == 2; ++k)
    {
       const VectorXd forces = problem_.clamped_forces(piece_.multipliers(failed));
@@ -191,12 +192,14 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
    if (self_similar()) { failed = state_.time; } // no smaller load has one either
    else if (failure.status == FrictionStatus::stalled && beyond < piece_.end())
    {
-      // At the limit itself a node or two carry everything: what happens there shows beyond.
+      // At the limit itself one or two nodes carry everything, so its nature shows only beyond
+      // it.
       const MarchStep trial = attempt(beyond);
       if (!trial.solved()) { failure = trial.increment; }
    }
    double reached = state_.time; // an equilibrium
-   // Where the end is proven, a hundredth of the way is left each time, until the solver fails.
+   // If the end is proven, each step leaves a hundredth of the remaining load, until the solver
+   // fails.
    const double unbalanced = first_unbalanced(failed);
    double left = unbalanced < failed ? 0.01 : 0.5;
    failed = unbalanced;
@@ -213,8 +216,8 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
          continue;
       }
       reached = middle;
-      // So close to the limit few nodes hold everything, and forces lose digits: such a load is
-      // known to have an equilibrium, but that is not handed out.
+      // So close to the limit few nodes hold everything, and forces lose digits. The load is
+      // known to have an equilibrium, but the state is not returned.
       const IncrementReport &found = trial.increment;
       const double stated =
          std::max({found.residual_normal, found.residual_tangential, found.round_off});
@@ -225,8 +228,8 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
    record_.report.event_multipliers = piece_.multipliers(reached);
 }
 
-/// One increment towards `target`, a shorter one where the solver stalls, or where contact
-/// would advance too far; for the latter an `exact` one is not cut.
+/// One increment towards `target`. It is shortened if the solver stalls, or if contact would
+/// advance too far (unless it is `exact`).
 bool MarchRun::step_by_increment(double target, bool exact)
 {
    const double whole = target - state_.time,
@@ -237,13 +240,13 @@ bool MarchRun::step_by_increment(double target, bool exact)
    {
       target = state_.time + state_.step;
    }
-   // 2. Half of it, until it is solved and contact does not advance too far.
+   // 2. Halve it until it is solved and contact does not advance too far.
    MarchStep trial;
    while (true)
    {
       trial = attempt(target, exact);
       const double step = target - state_.time;
-      // The loads next to one that the solver cannot finish are often no trouble.
+      // Loads close to one that the solver cannot finish often have a solution.
       const bool stalled = trial.stalled() && step > smallest && !self_similar();
       if (!trial.solved() && !stalled)
       {
@@ -277,9 +280,9 @@ bool MarchRun::step_by_increment(double target, bool exact)
    return true;
 }
 
-/// Where one increment to `target` would close a node: the time just before the first one
-/// closes, to which the friction of all others can be followed, or just after it, if the state
-/// stands there. Else `target`.
+/// If one increment to `target` would close a node: the time just before the first node closes,
+/// up to which the friction of all others is correct, or just after it, if the state is already
+/// there. Else `target`.
 double MarchRun::first_closing(double target)
 {
    const auto closes_by = [&](double time)
@@ -291,7 +294,7 @@ double MarchRun::first_closing(double target)
    const double resolution = 1e-7 * piece_.duration();
    double before = state_.time, after = target, least = target;
    while (least - before > resolution) { least = 0.5 * (before + least); }
-   // Most often one touches all but at once, which is sooner found than where all would be.
+   // Often one node touches almost at once, which is found faster than the time for all nodes.
    if (closes_by(least)) { after = least; }
    else if (!closes_by(target)) { return target; }
    else { before = least; }
@@ -303,8 +306,8 @@ double MarchRun::first_closing(double target)
    return before > state_.time ? before : first_known(after, target);
 }
 
-/// The first time from one on, each eight times as far on, at which forces are known: so soon
-/// after a body has crossed a gap they may be lost in the round-off of its way.
+/// The first of several times, each eight times as far ahead, at which forces are known. Just
+/// after a body has crossed a gap they may be lost in the round-off of its displacement.
 double MarchRun::first_known(double from, double target)
 {
    while (from < target)
@@ -316,8 +319,8 @@ double MarchRun::first_known(double from, double target)
    return from;
 }
 
-/// A path begins at the state, which an increment brings to equilibrium first if it is in
-/// none. False if that cannot be.
+/// Begins a path at the state, which an increment first brings to equilibrium if it is not in
+/// one. False if that fails.
 bool MarchRun::start_path()
 {
    if (path_) { return true; }
@@ -330,10 +333,10 @@ bool MarchRun::start_path()
    return true;
 }
 
-/// The path to its next event or stop. False, and the reason, if it does not go on.
+/// Follows the path to its next event or stop. False, with the reason, if it does not go on.
 bool MarchRun::path_step(std::string &reason)
 {
-   // 1. The way: to the end of the piece, as far as the next stop.
+   // 1. The loads' path leads to the end of the piece, and is followed to the next stop.
    const double stop = settings_.every_event ? piece_.end() : piece_.end_of_step(state_.time);
    const VectorXd at_stop = piece_.multipliers(stop);
    std::vector<StateChange> changes;
@@ -345,7 +348,7 @@ bool MarchRun::path_step(std::string &reason)
       reason = path_->failure();
       return false;
    }
-   // 2. However a state was found, it is judged like any other.
+   // 2. The state is judged like any other, however it was found.
    step.increment = solver_.judge(state_, step.state, path_->slip_error());
    if (!step.solved())
    {
@@ -362,7 +365,7 @@ bool MarchRun::path_step(std::string &reason)
    return true;
 }
 
-/// Changes of state at the present state, with which a step sets out.
+/// Changes of state at the present state, with which a step begins.
 void MarchRun::note(const std::vector<StateChange> &changes)
 {
    MarchReport &report = record_.report;
@@ -379,9 +382,9 @@ bool MarchRun::equilibria_end()
    if (beyond >= piece_.end()) { return false; }
    const MarchStep trial = attempt(beyond);
    if (trial.solved()) { return false; }
-   // That none was found is no proof: so small a load can be hidden in round-off, and above
-   // critical friction a search may miss one. Where the path ends and none is found with a
-   // larger load either, those between are no other.
+   // Finding no equilibrium is no proof: so small a load may be below round-off, and above
+   // critical friction a search may miss one. If the path ends and none is found with a larger
+   // load either, there is none in between.
    const bool proven =
       trial.increment.status == FrictionStatus::gross_sliding ||
       find_mechanism(problem_, problem_.clamped_forces(piece_.multipliers(beyond))).exists;
@@ -414,12 +417,13 @@ bool MarchRun::follow_path()
          halted = state_.time > before ? 0 : halted + 1;
          continue;
       }
-      // 3. Where it does not go on the way to the stop may be round-off, …
+      // 3. If it does not go on, the rest up to the stop may be round-off, …
       const double stop = piece_.end_of_step(state_.time);
       if (stop - state_.time <= 1e-12 * piece_.duration() && stay(stop)) { continue; }
       // 4. … or there may be no equilibrium beyond.
       if (started && equilibria_end()) { return false; }
-      // 5. Else one increment is taken, to the stop or to where a node closes first.
+      // 5. Otherwise one increment is taken, to the stop or to the load at which a node closes
+      // first.
       if (!step_by_increment(first_closing(stop), false)) { return false; }
       if (record_.report.fallbacks++ == 0) { record_.report.fallback_reason = reason; }
       halted = 0;
@@ -428,8 +432,8 @@ bool MarchRun::follow_path()
    return true;
 }
 
-/// Nothing happens to an equilibrium where the loads stay until a time: what slips goes on to
-/// when they move. False if the state is none with the loads there.
+/// If the loads stay until a time, an equilibrium stays as well; nodes that slip go on when the
+/// loads move. False if the state is no equilibrium with these loads.
 bool MarchRun::stay(double target)
 {
    MarchStep same;
@@ -491,9 +495,10 @@ bool MarchRun::march_pieces()
    return true;
 }
 
-/// Bodies that fly freely may find no first increment, which begins with rigid motions larger
-/// than all that deforms. (Where there is one friction has its say, and nothing is moved.) They
-/// are moved to where they touch, and the march begins there. False if that is not so.
+/// Free bodies that touch nothing may have no first increment, as it begins with rigid motions
+/// much larger than all deformations. (If there is one, it includes friction, and nothing is
+/// moved.) They are moved to where they touch, and the march begins there. False if this does
+/// not apply.
 bool MarchRun::restart_without_clearance()
 {
    const MarchReport &report = record_.report;
@@ -519,7 +524,7 @@ MarchReport MarchRun::run()
    // 1. Piece after piece.
    const Counters before = solver_.counters();
    bool finished = march_pieces();
-   // 2. The same without clearance, if that kept the march from its first increment.
+   // 2. The same after the clearance is closed, if it prevented the first increment.
    if (!finished && restart_without_clearance()) { finished = march_pieces(); }
    // 3. The balance, and what was done.
    record_.close();

@@ -21,20 +21,21 @@ namespace cattaneo
     body below. */
 struct HalfSpace
 {
-   Material material;             ///< of the body above; plane strain
-   std::optional<Material> other; ///< of the body below, plane strain; none: it is rigid
-   Eigen::Vector2d size{1, 1};    ///< edges of each rectangle along x and y, > 0
+   Material material; ///< material of the body above; plane strain
+   std::optional<Material>
+      other;                   ///< material of the body below, plane strain; empty: it is rigid
+   Eigen::Vector2d size{1, 1}; ///< edges of each rectangle along x and y, > 0
    /// Of the n rectangles that may touch, n × 2. They lie on one grid, that is they differ by
    /// whole edges, and may be any of its cells, in any order. None where there are triangles.
    Eigen::MatrixX2d centres;
    Eigen::MatrixX2d vertices; ///< x and y, of the triangles
-   /// Of the n triangles that may touch, n × 3: their corners, rows of `vertices` from 0, in
-   /// either sense. Two of them that share an edge share its two vertices.
+   /// Corners of the n triangles that may touch, n × 3: rows of `vertices`, from 0, in either
+   /// sense. Two triangles with a common edge share its two vertices.
    Eigen::MatrixX3i triangles;
    /// Is the body above free to turn about the normal through x = y = 0? It never tilts.
    bool turns = false;
-   /// Does a body end at the rim of the cells, as a flat punch does? Else contact that is
-   /// compressed there is cut off, and reports say so.
+   /// Does a body end at the rim of the cells, as a flat punch does? If not, contact that is
+   /// compressed there is cut off, and reports tell it.
    bool ends = false;
 
    /// InputError for a material that is none or of plane stress, edges that are not positive,
@@ -45,7 +46,7 @@ struct HalfSpace
 
    Eigen::Index nodes() const;       ///< number n of the cells
    Eigen::VectorXd areas() const;    ///< of the cells
-   Eigen::MatrixX2d middles() const; ///< of the cells, n × 2: centres of area
+   Eigen::MatrixX2d middles() const; ///< centres of area of the cells, n × 2
 
    /** Outlines of some cells, those of true entries (size n), along their edges: closed lines
        k × 2 of which the last point is the first one. The cells lie on their left, so that

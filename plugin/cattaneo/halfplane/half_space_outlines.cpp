@@ -43,7 +43,7 @@ std::vector<std::vector<CellCorner>> corners_of(const HalfSpace &contact,
    return corners;
 }
 
-/// How far the way from a to b turns to the left to go on to c, from -π to π.
+/// Angle by which the line from a to b turns to the left to go on to c, from -π to π.
 double left_turn(const Vector2d &a, const Vector2d &b, const Vector2d &c)
 {
    const Vector2d before = b - a, after = c - b;
@@ -88,7 +88,7 @@ std::vector<MatrixX2d> HalfSpace::outlines(const std::vector<bool> &cells) const
          const CellCorner here = way.back();
          std::set<CellCorner> &next = onward.at(here);
          CellCorner chosen = *next.begin();
-         // Where parts touch, the sharpest turn to the left stays with the same part.
+         // If parts touch, the sharpest turn to the left stays with the same part.
          for (const CellCorner &each : next)
          {
             if (way.size() == 1) { break; }

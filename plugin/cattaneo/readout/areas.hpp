@@ -9,9 +9,9 @@ namespace cattaneo
 struct SurfacePart
 {
    double area = 0; ///< sum of their weights
-   /// Estimate of what whole nodes leave of its outline, no bound: half an edge of a node
-   /// along the circumference of a disc of this area; of slip that of stick and of contact
-   /// together.
+   /// Estimated error because the outline consists of whole nodes, no bound: half an edge of a
+   /// node along the circumference of a disc of this area. For slip it is the sum of those of
+   /// stick and contact.
    double error = 0;
    Eigen::Index nodes = 0; ///< number of them
 };
@@ -21,18 +21,18 @@ struct ContactAreas
 {
    SurfacePart contact;    ///< stick and slip together
    SurfacePart stick;      ///< pressed, and at rest
-   SurfacePart slip;       ///< pressed, and slipping in whatever direction
+   SurfacePart slip;       ///< pressed, and slipping in any direction
    SurfacePart separation; ///< open, or touching without force
 };
 
-/// Areas from settled_states(), of a problem with two tangential components. InputError for
-/// another one, one without weights, or a state that does not fit.
+/// Areas from settled_states(), for a problem with two tangential components. InputError for
+/// another problem, one without weights, or a state that does not fit.
 ContactAreas contact_areas(const ReducedProblem &problem, const ContactState &state);
 
 /// The radius of a circular edge, from nodes on its two sides.
 struct RadialEdge
 {
-   double radius = 0; ///< of the circle that has the area of the nodes within
+   double radius = 0; ///< radius of the circle that has the area of the nodes within
    /// Each node nearer to the centre than radius - error is within, each one beyond radius +
    /// error outside. At least half an edge of a node, as a node that the edge crosses may be on
    /// either side; large where the edge is no circle about that centre. An estimate, no bound.

@@ -25,23 +25,25 @@ public:
    using MatrixXd = Eigen::MatrixXd;
    using VectorXd = Eigen::VectorXd;
 
-   /// Lets nothing of an increment before count, but what depends on node states alone.
+   /// Discards all of an earlier increment, except data that depend on node states alone.
    void begin();
    /// Moves to the solution of the linear equations of the present states and directions. False
    /// if they are singular.
    bool solve(Increment &at);
-   /// From now on in this increment each solution is made better by a second one from there.
+   /// From now on, in this increment, each solution is improved by a second one that starts
+   /// from it.
    void refine() { refines_ = true; }
 
 private:
-   /// Places and forces from which slip is counted, with the open nodes' share of the forces.
+   /// Displacements and forces from which slip is counted, with the open nodes' share of the
+   /// forces.
    struct Origin
    {
       VectorXd u;
       VectorXd forces; // {q; p} of the closed nodes
       MatrixXd lift;   // L⁻¹ forces of the open nodes, a column
    };
-   /// Of the equations, for each slipping node: the force along the trial force and across it.
+   /// The linearised equations of each slipping node, along the trial force and across it.
    struct Linearised
    {
       Eigen::Matrix2Xd along, across, own; // a column a node; own: stiffness across
@@ -59,8 +61,8 @@ private:
    bool iterate(const Linearised &equations, const VectorXd &r, VectorXd &x) const;
    bool solve_slip(Increment &at, const Linearised &equations, const VectorXd &b, VectorXd &x);
 
-   // Of node states alone: kept from increment to increment.
-   std::vector<signed char> is_open_; // of each node; empty: nothing is eliminated yet
+   // Data that depend on node states alone are kept from increment to increment.
+   std::vector<signed char> is_open_; // for each node; empty: nothing is eliminated yet
    std::vector<Index> open_, closed_; // rows of K: all components of the open, closed nodes
    std::vector<Index> place_;         // of a closed node's first component among `closed_`
    Index closed_nodes_ = 0;
@@ -71,15 +73,15 @@ private:
    std::vector<Index> slipping_; // nodes
    MatrixXd of_slip_;            // forces on the slipping nodes by their slips
 
-   // Of one increment.
+   // Data of one increment.
    Origin origin_;               // empty: none yet for these open nodes
    DenseLU factor_;              // of the equations of an earlier step
    std::vector<Index> factored_; // their nodes; empty: no factor
    bool refines_ = false;
 };
 
-/// Semismooth Newton steps from the present states: done when the laws hold, given up when the
-/// residual has stopped falling.
+/// Semismooth Newton steps from the present states, until the laws hold or the residual stops
+/// falling.
 bool newton_in_the_disc(Increment &at);
 
 } // namespace cattaneo

@@ -48,7 +48,7 @@ public:
    MarchRun(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
             const MarchSettings &settings, const MarchObserver &observer);
 
-   /// To the end of the history, or as far as there are equilibria.
+   /// Marches to the end of the history, or as far as there are equilibria.
    MarchReport run();
    /// The losses of what run() has marched.
    const Losses &losses() const { return record_.losses(); }

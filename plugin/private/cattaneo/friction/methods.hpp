@@ -5,13 +5,13 @@
 namespace cattaneo
 {
 
-// The methods that look for the end of an increment, each in the file of its name.
+// The methods that seek the end of an increment, each in the file of its name.
 
 enum class Search
 {
    found,    ///< the increment stands there, with its report
    not_here, ///< another method may find it
-   hopeless  ///< no further method is tried: weak springs bear nothing, and rest is left
+   hopeless ///< no further method is tried: weak springs bear nothing, so only rest is possible
 };
 
 /// One pass over all nodes, each solved exactly with the others fixed (thesis 3.5, appendix D).
@@ -19,21 +19,22 @@ void sweep(Increment &at);
 /// Sweeps until nothing changes.
 Search gauss_seidel(Increment &at);
 
-/// Plane: semismooth Newton after a few sweeps, where node states stand for linear equations,
-/// whose solution asks for states.
+/// Plane: semismooth Newton after a few sweeps. Node states give linear equations, and their
+/// solution gives new states.
 Search active_set(Increment &at);
 /// From the present states alone.
 bool newton(Increment &at);
 /// After so many sweeps, which begin where the last ones ended.
 bool newton_after_sweeps(Increment &at, int sweeps);
-/// Takes the states that the present displacements and forces ask for, with one tangent or
-/// none. @return how many nodes changed theirs
+/// Takes the states that follow from the present displacements and forces, with one tangent or
+/// none. @return how many nodes changed their state
 Eigen::Index ask_for_states(Increment &at);
-/// newton() from a point that may be an answer itself, but for round-off.
+/// newton() from a point that may itself be a solution, apart from round-off.
 bool polished(Increment &at);
 
-/// Plane: follows solutions from elsewhere to the one sought, one node's state at a time. Eight
-/// departures from the start of the increment; or departures from random places about it.
+/// Plane: follows solutions of neighbouring problems to that of the increment, one node's state
+/// at a time. It starts eight times near the start of the increment, or from random places
+/// about it.
 Search lemke(Increment &at);
 Search lemke_from_afar(Increment &at);
 
@@ -43,16 +44,16 @@ Search active_set_in_the_disc(Increment &at);
 /// ended, from the start of the increment, and from random places about it.
 Search damped_newton(Increment &at);
 
-/// By the methods before the weak springs alone, which suffice where something holds the
-/// bodies.
+/// Uses only the methods before the weak springs, which suffice if something holds the bodies.
 bool find_end_quickly(Increment &at);
 
-/// Newton's steps without springs from where the weakest springs hold the bodies. Hopeless if
-/// these fail and the springs bear nothing: then the place itself may be an answer (rest).
+/// Newton's steps without springs from the place where the weakest springs hold the bodies.
+/// Hopeless if they fail and the springs bear nothing; then the place itself may be a solution
+/// (rest).
 Search weak_springs(Increment &at);
-/// Does a body drift or spin away, as weak springs tell? Asked once an increment. If no end is
-/// found this is the cause. An end that is found all the same counts, unless round-off may hide
-/// the motion (runs_away()).
+/// Does a body drift or spin away, according to weak springs? Checked once in an increment. If
+/// no end is found this is the reason. If an end is found nevertheless it counts, unless
+/// round-off may hide the motion (runs_away()).
 bool moves_away(Increment &at);
 
 /// Of an answer that was found from afar: may it be a free body that slides away? Round-off of
@@ -61,17 +62,18 @@ bool moves_away(Increment &at);
 /// march moves it to where it touches first, and knows its forces better then.
 bool may_slide(const Increment &at);
 
-/// Is it the end of the increment where it stands? A body that slips wherever it touches could
-/// slip on as it is, with the same forces: it is moved before to where it has moved the least.
+/// Is the present state the end of the increment? A body that slips wherever it touches could
+/// slip on with the same forces, so it is first moved back to its least displacement.
 bool ends_with_least_motion(Increment &at);
 
 /// Moves to the solution of the linear equations of the present states. False if they are
 /// singular.
 bool solve_for_states(Increment &at);
-/// The same of the gaps alone, without friction or where slip does not change the pressure.
+/// The same for the gaps alone, without friction or if slip does not change the pressure.
 bool solve_normal(Increment &at);
-/// True if displacements are much smaller than those that they were counted from: the round-off
-/// of these is then a large part of them. By the nodes' own stiffness, K: its diagonal.
+/// True if displacements are much smaller than those from which they were counted, whose
+/// round-off then is a large part of them. Measured with the nodes' own stiffness; K: its
+/// diagonal.
 bool cancels(const Eigen::VectorXd &K, const Eigen::VectorXd &from, const Eigen::VectorXd &u);
 
 } // namespace cattaneo
