@@ -37,12 +37,13 @@ void hertz(Study &study)
                 {"half-plane", "block"});
    study.option(&friction, "friction", "Coefficient of friction.", not_negative);
    study.option(&poisson, "poisson", "Poisson's ratio of both bodies.");
-   study.option(&ratio, "ratio", "Block: Hertz half-width over a.", between(0, 1));
-   study.option(&span, "span", "Half-planes: half-width of the contact candidates, in b.",
-                above(1));
+   study.option(&ratio, "ratio",
+                "With a block: half-width by Hertz, over that of the block, a.", between(0, 1));
+   study.option(&span, "span",
+                "With half-planes: half-width of the line of contact nodes, in b.", above(1));
    study.option(&domain, "domain", domain_help, none_or_above(10));
    study.option(&order, "order", "Order of the elements.", within(1, 8));
-   study.option(&nodes, "nodes", "Contact nodes.", at_least(9));
+   study.option(&nodes, "nodes", "Number of contact nodes.", at_least(9));
    study.option(&levels_of_P, "load-levels",
                 "Loading: list of P/P0 whose pressures and gaps are drawn (empty: none).",
                 above_up_to(0, 1));

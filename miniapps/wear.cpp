@@ -63,37 +63,40 @@ void wear_contact(Study &study)
    settings.tolerance = 1e-3;
    settings.march.increments = 0;
    study.option(&pad.profile, "profile",
-                "Pad: parabola, or flat with rounded edges; R = 1 of both, units of the "
-                "parabola's half-width under P = 1.",
+                "Pad: parabola, or flat with rounded edges. Both have R = 1; the unit of "
+                "length is the parabola's half-width under P = 1.",
                 {"parabola", "flat"});
    study.option(&pad.flat, "flat",
-                "Pad: half-width that is flat (at 0.5 contact is 1.36 wide under P).",
+                "Pad: half-width of the flat part (with 0.5 the contact is 1.36 wide under P).",
                 between(0, 1));
    study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.", between(0, 1));
    study.option(&friction, "friction",
-                "Coefficient of friction; default: 0.5, of --reduced the file's.", positive);
+                "Coefficient of friction; default: 0.5, with --reduced that of the file.",
+                positive);
    study.option(&pad.poisson, "poisson", "Pad: Poisson's ratio.");
    study.option(&pad.nodes, "nodes",
-                "Pad: contact nodes, one more than a multiple of twice the order.",
+                "Pad: number of contact nodes, one more than a multiple of twice the order.",
                 at_least(25));
    study.option(&pad.order, "order", "Pad: order of the elements.", within(1, 8));
-   study.option(&cycles, "cycles", "Cycles at the end, those of --load-state among them.",
+   study.option(&cycles, "cycles", "Number of cycles in all, with those of --load-state.",
                 within(0, 1e15));
    study.option(&coefficient, "wear", "Archard's k, of both bodies together, 1/pressure.",
                 not_negative);
    study.option(&threshold, "threshold", "Pressure below which nothing wears.", not_negative);
-   study.option(&of_energy, "energy", "k is of the energy that friction takes: f k wears.");
+   study.option(&of_energy, "energy",
+                "k is wear per energy lost by friction, so that f k takes the place of k.");
    study.option(&settings.tolerance, "tolerance",
-                "Share of the largest depth that jumps over cycles may err by; 0: all are "
-                "marched.",
+                "Largest error of depths because cycles are skipped, as a share of the largest "
+                "depth; 0: all are marched.",
                 within(0, 0.1));
    study.option(&update, "update",
-                "The gap takes in what is worn each cycle or each piece of it.",
+                "When wear is added to the gap: after each cycle, or after each piece of it.",
                 {"cycle", "piece"});
-   study.option(&settings.march.increments, "increments",
-                "Load increments between two points of the history; 0: 1 where slip goes "
-                "straight (the pads; B = 0 and the same normal loads all cycle), else 20.",
-                at_least(0));
+   study.option(
+      &settings.march.increments, "increments",
+      "Load increments between two points of the history. 0: one if slip goes straight (the "
+      "pads, or B = 0 with constant normal loads in the cycle), else 20.",
+      at_least(0));
    stepping.declare(study);
    study.option(&file, "reduced", "Reduced problem, in place of the pad.", Text::input);
    study.option(&history_text, "history",
@@ -103,7 +106,8 @@ void wear_contact(Study &study)
                 "With --reduced: point of the history (from 0) where its cycle starts.",
                 at_least(-1));
    study.option(&save_state, "save-state", "File for the last state.", Text::output);
-   study.option(&load_state, "load-state", "State to go on from.", Text::input);
+   study.option(&load_state, "load-state", "State from which the march continues.",
+                Text::input);
    study.options().leave_out_of_cases("load-state");
    study.parse();
    stepping.set(settings.march);
