@@ -213,7 +213,7 @@ void axisymmetric_receding(Study &study)
    study.option(&cycled, "cycle-to",
                 "Load cycles between P0 and less: list of P/P0 to go back to (empty: none).",
                 between(0, 1));
-   study.option(&load_cycles, "load-cycles", "Load cycles, at most.", at_least(1));
+   study.option(&load_cycles, "load-cycles", "Largest number of load cycles.", at_least(1));
    study.option(&torques, "torque", "Torsion: list of T/T_s to report (empty: none).",
                 positive);
    study.option(&rotations, "rotation",
@@ -234,7 +234,7 @@ void axisymmetric_receding(Study &study)
    study.option(&critical_f, "critical-friction", "Critical radius of the load: list of f.",
                 not_negative);
    study.option(&critical_bonded, "critical-bonded",
-                "Critical radius of the load: of the bonded disc too (ill-conditioned).");
+                "Critical radius of the load: also for the bonded disc (ill-conditioned).");
    study.parse();
    const bool twists = !torques.empty() || !rotations.empty() || cycles > 0;
    study.only_if(!map_a.empty(), {"map-friction"}, "goes with --map");

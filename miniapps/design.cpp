@@ -102,36 +102,37 @@ void design_contact(Study &study)
    study.option(&chosen.scene, "scene", "Pad on a half-plane, or square punch on one.",
                 {"pad", "punch"});
    study.option(&choice.profile, "profile",
-                "Gap free at nodes, of few powers, or flat with rounded ends.",
+                "Gap: free at each node, a sum of few powers, or flat with rounded ends.",
                 {"free", "crown", "rounded"});
    study.option(&choice.powers, "powers",
-                "Crown: its powers; an odd one leans to one side or the other.", within(1, 16));
+                "Crown: its powers; odd powers make it lean to one side.", within(1, 16));
    study.option(&chosen.goal, "goal",
-                "Least largest pressure; in a cycle the least energy lost, the most (damping), "
-                "or the least that a node loses at most per area (energy).",
+                "Least largest pressure; for a cycle the least energy loss, the largest loss "
+                "(damping), or the least largest loss of a node per area (energy).",
                 {"pressure", "loss", "damping", "energy"});
    study.option(&chosen.loads, "loads", "Normal load P of each case.", positive);
    study.option(&chosen.weights, "weights", "Of each case; default: 1.", positive);
    study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", at_least_below(0, 1));
-   study.option(&chosen.friction, "friction", "Default: 0.3, of --reduced the file's.",
+   study.option(&chosen.friction, "friction",
+                "Coefficient of friction; default: 0.3, with --reduced that of the file.",
                 positive);
-   study.option(
-      &choice.most, "most",
-      "Most that a gap changes by against the node that touches (of bodies that are held: that "
-      "is added to it), largest part of each power of the crown, or largest 1/R; of --choose, "
-      "most that a load changes by.",
-      positive);
-   study.option(&choice.curvature, "curvature", "Largest of the gap; default: no limit.",
+   study.option(&choice.most, "most",
+                "Largest change of a gap relative to the node that touches (for held bodies: "
+                "largest addition to it), largest part of each power of the crown, or largest "
+                "1/R. With --choose: largest change of a load.",
                 positive);
-   study.option(&chosen.nodes, "nodes", "Contact nodes, one more than a multiple of 4.",
-                at_least(9));
+   study.option(&choice.curvature, "curvature",
+                "Largest curvature of the gap; default: no limit.", positive);
+   study.option(&chosen.nodes, "nodes",
+                "Number of contact nodes, one more than a multiple of 4.", at_least(9));
    study.option(&settings.march.increments, "increments",
                 "Increments between two points of the history.", at_least(1));
    stepping.declare(study);
    study.option(&settings.tolerance, "tolerance", "Of the conditions of optimality.",
                 between(0, 1));
    study.option(&lines, "lines", "Steps of a sweep along each variable.", at_least(0));
-   study.option(&starts, "starts", "Searches from so many places: the best is kept.",
+   study.option(&starts, "starts",
+                "Number of searches from different places; the best result is kept.",
                 at_least(1));
    study.option(&chosen.file, "reduced", "Reduced problem, in place of the scenes.",
                 Text::input);
@@ -139,11 +140,11 @@ void design_contact(Study &study)
                 "With --reduced: load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'.",
                 Text::statements);
    study.option(&chosen.from, "from",
-                "With --reduced: time from which on its points count; default: the last.");
-   study.option(
-      &choice.loads, "choose",
-      "With --reduced: loads that are chosen in place of the gap, as 'bolt 1; bolt 2'; "
-      "their sum stays, none goes below zero.");
+                "With --reduced: time from which on the points of the history count; default: "
+                "the last one.");
+   study.option(&choice.loads, "choose",
+                "With --reduced: loads that are chosen in place of the gap, as 'bolt 1; bolt "
+                "2'. Their sum stays the same, and none falls below zero.");
    study.option(&choice.coat, "coat",
                 "Friction is chosen in place of the gap, from the first number to the second.",
                 not_negative);

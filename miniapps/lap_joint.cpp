@@ -274,9 +274,10 @@ void lap_joint(Study &study)
                 "Thickness of the lower lap over the upper's (1: equal laps).",
                 between(0.1, 100));
    study.option(&joint.friction, "friction", "Coefficient of friction.", positive);
-   study.option(&joint.load, "load", "Tmax/P0, tension positive; P0 = p0 w, w of --width.");
-   study.option(&joint.cycles, "cycles", "Cycles at most; the march stops when steady.",
-                at_least(1));
+   study.option(&joint.load, "load",
+                "Tmax/P0, tension positive. P0 = p0 w with the w of --width.");
+   study.option(&joint.cycles, "cycles",
+                "Largest number of cycles; the march stops when they are steady.", at_least(1));
    study.option(&all_cycles,
                 {"all-cycles", "all-cycles", "stop-when-steady", "stop-when-steady"},
                 "March all cycles.");
@@ -290,10 +291,10 @@ void lap_joint(Study &study)
                 "Orders of tightening, bolts from 1: \"2 1 3 / 1 3 2\" (empty: inner first, "
                 "outer first).");
    study.option(&joint.snug, "snug",
-                "Pressure over p0 to which several bolts are drawn together first.",
+                "Pressure, over p0, to which several bolts are tightened together first.",
                 at_least_below(0, 1));
    study.option(&loads, "sweep-load",
-                "Sweep: list of T/P0 (empty: none), P0 of --width in all widths.");
+                "Sweep: list of T/P0 (empty: none), with P0 of --width for all widths.");
    study.option(&frictions, "sweep-friction", "Sweep: list of f (empty: --friction).",
                 positive);
    study.option(&widths, "sweep-width", "Sweep: list of w/t (empty: --width).");

@@ -202,7 +202,7 @@ void plane_receding(Study &study)
                 {"half-plane", "th0"});
    study.option(&options.domain, "domain", domain_help, none_or_above(1));
    study.option(&options.side, "side",
-                "Block beyond the strip's end in t (0: as far as it is deep).");
+                "Length of the block beyond the strip's end in t (0: as long as its depth).");
    study.option(&options.length, "length", "Length of the strip in t.", positive);
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
@@ -222,7 +222,7 @@ void plane_receding(Study &study)
       &cycled, "cycle-to",
       "Cycles of the load between p0 and less: list of the lowest p/p0 (empty: none).",
       between(0, 1));
-   study.option(&cycles, "cycles", "Cycles of the load, at most.", at_least(1));
+   study.option(&cycles, "cycles", "Largest number of cycles of the load.", at_least(1));
    study.option(&bonded_n, "bonded",
                 "Bonded strips: list of n to draw, with the n at which their kind changes.",
                 positive);

@@ -74,16 +74,16 @@ void Shakedown::run()
 void Shakedown::options()
 {
    std::string obstacle = "half-plane";
-   study.option(
-      &friction, "friction",
-      "Coefficient of friction of the largest load and of the marches; default: 0.85, "
-      "of a saved problem the file's.",
-      positive);
+   study.option(&friction, "friction",
+                "Coefficient of friction for the largest load and the marches; default: 0.85, "
+                "for a saved problem that of the file.",
+                positive);
    study.option(&lambda_max, "lambda-max",
-                "Largest cycled load, of the smallest friction and of the marches.", positive);
+                "Largest cycled load, for the smallest friction and the marches.", positive);
    study.option(&lambda_min, "lambda-min", "Smallest cycled load.");
    study.option(&reversal, "reversal",
-                "R = λmin/λmax, instead of --lambda-min: -1 to and fro, 0 pulsating.",
+                "R = λmin/λmax, instead of --lambda-min: -1 for a load to and fro, 0 for a "
+                "pulsating one.",
                 Check{[](double R) { return R >= -1 && R <= 1; }, "must be between -1 and 1"});
    study.option(&find, "find",
                 "The smallest friction for the loads, the largest load for the friction, or "
@@ -104,9 +104,10 @@ void Shakedown::options()
       "March in time from zero, optimal and negative optimal slip, whose outcome is then that "
       "of the run; also with --plot or --html.");
    study.option(&cycles, "cycles", "Cycles of a march, at most.", at_least(1));
-   study.option(&starts, "starts",
-                "Random starts of the search for one that slips for ever (0: none).",
-                not_negative);
+   study.option(
+      &starts, "starts",
+      "Number of random starts in the search for a start that slips for ever (0: none).",
+      not_negative);
    study.option(
       &lower_limits, "lower",
       "Also find the load that is proven to shake down from every start, with and without "
@@ -123,13 +124,15 @@ void Shakedown::options()
                 "where nodal ratios do not converge.",
                 at_least_below(0, 0.5));
    study.option(&mesh_study, "mesh-study",
-                "Numbers of contact nodes to repeat the limits with.");
+                "Numbers of contact nodes with which the limits are repeated.");
    study.option(&mismatch, "mismatch",
-                "Stiffnesses E' of the half-plane over the block's to repeat the limits with.",
+                "Ratios of the stiffness E' of the half-plane to that of the block, for which "
+                "the limits are repeated.",
                 positive);
-   study.option(&mismatch_poisson, "mismatch-poisson",
-                "And Poisson's ratios of the half-plane (default: the block's).",
-                at_least_below(0, 0.5));
+   study.option(
+      &mismatch_poisson, "mismatch-poisson",
+      "Poisson's ratios of the half-plane for --mismatch (default: that of the block).",
+      at_least_below(0, 0.5));
    study.option(&obstacle, "obstacle", "What the block stands on: rigid or half-plane.",
                 {"rigid", "half-plane"});
    add_options(study, punch);
