@@ -111,7 +111,7 @@ void design_contact(Study &study)
                 "(damping), or the least largest loss of a node per area (energy).",
                 {"pressure", "loss", "damping", "energy"});
    study.option(&chosen.loads, "loads", "Normal load P of each case.", positive);
-   study.option(&chosen.weights, "weights", "Of each case; default: 1.", positive);
+   study.option(&chosen.weights, "weights", "Weight of each case; default: 1.", positive);
    study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", at_least_below(0, 1));
    study.option(&chosen.friction, "friction",
                 "Coefficient of friction; default: 0.3, with --reduced that of the file.",
@@ -128,8 +128,8 @@ void design_contact(Study &study)
    study.option(&settings.march.increments, "increments",
                 "Increments between two points of the history.", at_least(1));
    stepping.declare(study);
-   study.option(&settings.tolerance, "tolerance", "Of the conditions of optimality.",
-                between(0, 1));
+   study.option(&settings.tolerance, "tolerance",
+                "Largest error of the conditions of optimality.", between(0, 1));
    study.option(&lines, "lines", "Steps of a sweep along each variable.", at_least(0));
    study.option(&starts, "starts",
                 "Number of searches from different places; the best result is kept.",
@@ -148,8 +148,8 @@ void design_contact(Study &study)
    study.option(&choice.coat, "coat",
                 "Friction is chosen in place of the gap, from the first number to the second.",
                 not_negative);
-   study.option(&choice.zones, "zones", "Of --coat, of equal lengths, of each line.",
-                at_least(1));
+   study.option(&choice.zones, "zones",
+                "Number of zones of --coat on each line, of equal lengths.", at_least(1));
    study.parse();
    stepping.set(settings.march);
    const bool saved = !chosen.file.empty(), own_gap = choice.what() == "gap",

@@ -83,7 +83,7 @@ void single(Study &study, Joint &joint)
    const auto x = [=](double arc_length) { return arc_length + shift; };
    Panel &diagram =
       study.panel(Panel::Kind::zones, "zones",
-                  "Zones in time (1: pinched, then T: 0 → Tmax → 0)", "load step", "x/t");
+                  "Zones in time (1: pinched, then T: 0 → Tmax → 0)", "time", "x/t");
    nlohmann::ordered_json evolution = nlohmann::ordered_json::array();
    std::vector<ContactState> states, stations; // for the frames, and for draw()
    const auto observe = [&](const ContactState &state)

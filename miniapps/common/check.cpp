@@ -306,7 +306,7 @@ Panel &draw(Study &study, const Scene &scene, const std::string &name, const std
 void show(Study &study, const Scene &scene)
 {
    require(ranks() == 1, "option --check: there are ", ranks(), " ranks, must be one");
-   study.title("What is to be computed with");
+   study.title("Input of the computation");
    list_bodies(study, scene);
    list_lines(study, scene.reduction);
    list_loads(study, scene);

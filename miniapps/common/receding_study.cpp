@@ -200,7 +200,7 @@ void cycle_the_load(Study &study, Run &run, const Receding &receding,
                                receding.loss),
          &diagram = study.panel(Panel::Kind::zones, "load_cycle_zones",
                                 exact_text("Zones in two cycles down to p/p0 = ", lowest[0]),
-                                "load step", receding.coordinate),
+                                "time", receding.coordinate),
          &profiles =
             study.lines("load_cycle_tractions", "Pressure p and shear q over f in the cycles",
                         receding.coordinate, "p/p0, q/(f p0)");

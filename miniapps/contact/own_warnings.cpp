@@ -89,7 +89,7 @@ void warn_of_loose_bodies(const OwnBodies &own)
       warn("body ", (name.empty() ? std::to_string(b + 1) : name),
            " is free and touches nothing at rest (the least gap is ", least,
            "). The first force moves it in one step until it touches, and a march may fail "
-           "from there: place it so that it touches, move it there by a guide, or hold a "
+           "from there. Place it so that it touches, move it there by a guide, or hold a "
            "motion that nothing resists (a rotation without friction)");
    }
 }

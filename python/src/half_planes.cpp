@@ -140,11 +140,10 @@ void bind_half_planes(nb::module_ &m)
       },
       arg("body"), arg("line"),
       "Condenses a body to the nodes of a contact line: one sparse factorisation, one solve a "
-      "load.\n\n"
-      "body: with a mesh or matrix, or a half-plane. line: of body.contact_line(), several of "
-      "them joined(); of a half-plane that of the body that presses on it, or the places of "
-      "the ends of elements along its surface. order: of these elements, 1 to 8. formulation: "
-      "of them, 'plane' or 'axisymmetric'.");
+      "load.\n\nbody: a body with a mesh or matrix, or a half-plane. line: from "
+      "body.contact_line(), or several lines joined(). For a half-plane it is the line of the "
+      "body that presses on it, or the places of the ends of elements along its surface. "
+      "order: order of these elements, 1 to 8. formulation: 'plane' or 'axisymmetric'.");
    m.def(
       "condense",
       [](const HalfPlane &body, const ContactLine &line)

@@ -120,8 +120,8 @@ void bind_half_spaces(nb::module_ &m)
          },
          nb::arg("points"), nb::arg("forces"),
          "Stresses (m, 6) at points (m, 3) inside of the bodies under nodal forces {q; p}, (3 "
-         "n,): xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body above, z < 0 "
-         "the one below.")
+         "n,). They are xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body "
+         "above, z < 0 the one below.")
       .def(
          "resultant",
          [](const HalfSpace &self, Numbers forces) {

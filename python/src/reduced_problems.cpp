@@ -296,10 +296,10 @@ void bind_reduced_problems(nb::module_ &m)
             set_friction_law(self, law, chosen);
          },
          arg("points"), arg("backward") = nb::none(), arg("nodes") = nb::none(),
-         "Sets another law of friction. points: (pressure, shear strength), tractions, (k, 2), "
-         "of a polyline from (0, 0) that goes straight on beyond the last point. backward: the "
-         "same for slip backward, if it differs. nodes: where it holds; None: at all nodes. "
-         "[[1, f]] is Coulomb's law.")
+         "Sets another law of friction: a polyline from (0, 0) that goes straight on beyond "
+         "its last point.\n\npoints: (pressure, shear strength), (k, 2), tractions. backward: "
+         "the same for slip backward, if it differs. nodes: where it holds; None: at all "
+         "nodes. [[1, f]] is Coulomb's law.")
       .def_prop_ro(
          "weights", [](const Self &self) { return array(self.weights); },
          "traction = force / weight")

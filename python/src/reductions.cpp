@@ -225,10 +225,11 @@ void bind_reductions(nb::module_ &m)
             return geometry_warnings(self, state.p);
          },
          arg("state"),
-         "Warnings about geometry that affects this state, as sentences: normals of both "
-         "bodies that differ, at a node that bears, by an angle that is not small compared "
-         "with friction; elements that differ although nodes are paired; ends that are taken "
-         "for planes of symmetry; nodes that supports hold askew. Empty if there are none.")
+         "Warnings about geometry that affects this state, as sentences. They are about "
+         "normals of both bodies that differ, at a node that bears, by an angle that is not "
+         "small compared with friction. Others are about elements that differ although nodes "
+         "are paired, ends that are taken for planes of symmetry, and nodes that supports hold "
+         "askew. Empty if there are none.")
       .def(
          "add_obstacle_motion",
          [](Self &self, const std::string &name, const Place &ux, const Place &uy) {

@@ -114,15 +114,15 @@ void say_held(const Reduction &reduction, const InterfaceReport &face,
          std::count(problem.held.begin(), problem.held.end(), node) > 0 && off > 1e-6;
       if (!held || !bears[node] || problem.friction[node] <= 0) { continue; }
       const Formulation formulation = reduction.bodies[face.bodies[0]].line.formulation;
-      said.push_back(
-         sentence("interface '", face.name, "': supports hold node ", node, " at ",
-                  at(face.position.row(i)), ", which bears, along ",
-                  component_name(formulation, nearest_axis(tangent)), ", ", in_degrees * off,
-                  " degrees off the contact there. Its tangential force cannot be split into "
-                  "support and friction, and all of it counts as the support's. This changes "
-                  "the normal force by up to ",
-                  std::tan(off) * problem.friction[node],
-                  " of itself. Leave contact nodes free of supports to have friction there"));
+      said.push_back(sentence(
+         "interface '", face.name, "': supports hold node ", node, " at ",
+         at(face.position.row(i)), ", which bears, along ",
+         component_name(formulation, nearest_axis(tangent)), ", ", in_degrees * off,
+         " degrees off the contact there. Its tangential force cannot be split into "
+         "support and friction, and all of it counts as the support's. This changes "
+         "the normal force by up to ",
+         std::tan(off) * problem.friction[node],
+         ", relative to itself. Leave contact nodes free of supports to have friction there"));
    }
 }
 
