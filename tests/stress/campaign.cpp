@@ -259,7 +259,8 @@ private:
 
    /// An increment to these loads that was not solved: is what is said of it true? Where a
    /// march ended that is so if it is at any of several loads beyond, the first the farthest:
-   /// there may be equilibria again soon.
+   /// there may be equilibria again soon, as where loads that balance each other pass through
+   /// zero and little holds a body for a moment.
    void failed(FrictionStatus status, const std::string &message,
                const std::vector<Eigen::VectorXd> &loads)
    {
@@ -359,7 +360,7 @@ private:
             std::max(0.0, std::floor(report.event_time)), made_->history.size() - 2);
          const Eigen::VectorXd rest = made_->history[piece + 1] - report.event_multipliers;
          std::vector<Eigen::VectorXd> beyond;
-         for (const double share : {1e-3, 1e-4, 1e-5})
+         for (const double share : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7})
             beyond.push_back(report.event_multipliers + share * rest);
          failed(report.status, report.message, beyond);
       }

@@ -143,7 +143,9 @@ void explain_failure(Increment &at)
       message << "the contact moves so far that its forces are lost in round-off ("
               << at.cause.lost_in_round_off << " of the largest)";
    }
-   else if (const Index node = s.above_critical(p); node >= 0)
+   // Where nothing moves freely there is always an equilibrium, whatever the friction.
+   else if (const Index node = s.problem.rigid_motions.cols() > 0 ? s.above_critical(p) : -1;
+            node >= 0)
    {
       report.status = FrictionStatus::no_solution;
       message << "no equilibrium was found, and there may be none: friction "
