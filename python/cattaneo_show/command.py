@@ -65,6 +65,8 @@ def main(arguments=None):
             raise Refused("option --panels does nothing: it goes with --plot")
         if options.html:
             page(run, options.html, figure=draws)
+            if not run["shown"]["marches"] and "CATTANEO_PROGRAM" not in os.environ:
+                print("the page has no slider over increments: the JSON of a run has them that was written with --html")
             if not draws and run["shown"]["panels"]:
                 print("the page has no figures: they need matplotlib (Debian: python3-matplotlib)")
         if options.plot and not draws:

@@ -70,6 +70,8 @@ def test_panels_are_chosen_by_name(run):
     show(kept, "--plot", picture, "--panels", f"'{names[-1]}'")
     text = picture.read_text(encoding="utf-8")
     assert f"<!-- {titles[names[-1]]} -->" in text and f"<!-- {titles[names[0]]} -->" not in text
+    # A run that had no --html has kept no increments, which is said.
+    assert "no slider" in show(kept, "--html", run.folder / "page.html")
     refused(show(kept, "--plot", picture, "--panels", "pressur", code=1), "no panel 'pressur'", names[0])
     refused(show(kept, "--panels", names[0], code=1), "--panels", "goes with --plot")
 
