@@ -215,3 +215,12 @@ def test_plot(hertz):
     with pytest.raises(ValueError, match="must be 3"):
         report.plot(axes[:2])
     matplotlib.pyplot.close("all")
+
+
+def test_a_load_that_acts_before_anything_presses(hertz):
+    """The outcome says which loads come later, or that none does."""
+    with pytest.warns(cattaneo.OutcomeWarning, match="nothing presses yet: load 'P' begins towards point 2"):
+        report = cattaneo.march(hertz, [{}, {"Q": 0.1}, {"P": 1}])
+    assert "what presses must come first" in report.message and report.state.p.max() == 0
+    with pytest.warns(cattaneo.OutcomeWarning, match="no load comes later: is the sign of one of them wrong"):
+        cattaneo.march(hertz, [{}, {"P": -1}])
