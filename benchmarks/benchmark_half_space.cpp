@@ -2,7 +2,8 @@
 //
 //  A sphere on a half-space of the same material (normal and tangential directions uncoupled),
 //  and a rigid one (coupled): making the problem, pressing it, and an increment of shear to 0.9
-//  of the limit. Each is a process of its own; exponents are those of seconds over rectangles.
+//  of the limit. Each is a process of its own; exponents are those of seconds and memory over
+//  rectangles.
 
 #include "common/measure.hpp"
 
@@ -80,7 +81,7 @@ int main()
                "shearing", "MB");
    for (const bool rigid : {false, true})
    {
-      std::vector<double> rectangles, seconds[3];
+      std::vector<double> rectangles, seconds[3], memory;
       for (const double across : {15.0, 24.0, 35.0, 49.0})
       {
          const Measured run = in_own_process([&] { return sphere(2 / across, rigid); });
@@ -92,11 +93,12 @@ int main()
          std::printf("%-10s %10.0f %9.3f %9.3f %9.3f %9.0f\n", rigid ? "coupled" : "uncoupled",
                      run.values[0], run.values[1], run.values[2], run.values[3], run.megabytes);
          rectangles.push_back(run.values[0]);
+         memory.push_back(run.megabytes);
          for (std::size_t k : {0, 1, 2}) { seconds[k].push_back(run.values[k + 1]); }
       }
-      std::printf("%-10s %10s %9.1f %9.1f %9.1f\n", "", "exponent",
+      std::printf("%-10s %10s %9.1f %9.1f %9.1f %9.1f\n", "", "exponent",
                   log_slope(rectangles, seconds[0]), log_slope(rectangles, seconds[1]),
-                  log_slope(rectangles, seconds[2]));
+                  log_slope(rectangles, seconds[2]), log_slope(rectangles, memory));
    }
    return 0;
 }
