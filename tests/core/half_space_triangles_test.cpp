@@ -461,6 +461,19 @@ TEST(HalfSpaceTriangles, SaysWhatItCannotTake)
    refused([](HalfSpace &bad) { bad.vertices(3, 1) = NAN; }, "not finite");
    refused([](HalfSpace &bad) { bad.triangles.row(3) = bad.triangles.row(1); },
            "triangles 1 and 3 lie on the same side of the edge");
+   refused(
+      [](HalfSpace &bad)
+      {
+         // The same place by vertices of its own.
+         const auto k = bad.vertices.rows();
+         bad.vertices.conservativeResize(k + 3, 2);
+         for (Index i = 0; i < 3; ++i)
+         {
+            bad.vertices.row(k + i) = bad.vertices.row(bad.triangles(3, i));
+            bad.triangles(4, i) = static_cast<int>(k + i);
+         }
+      },
+      "the triangles 3 and 4 lie on each other");
    refused([](HalfSpace &bad) { bad.triangles.resize(0, 3); },
            "no rectangles and no triangles");
 }

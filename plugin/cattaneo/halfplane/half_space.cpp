@@ -131,6 +131,29 @@ DirectedEdges edges_of(const HalfSpace &contact)
    return edges;
 }
 
+/// Refuses triangles that lie on each other, as far as the middle of one lies within another.
+void refuse_overlap(const HalfSpace &contact)
+{
+   const std::vector<Polygon> triangles = polygons_of(contact);
+   const Eigen::MatrixX2d middles = contact.middles();
+   for (std::size_t i = 0; i < triangles.size(); ++i)
+   {
+      const Polygon &of = triangles[i];
+      for (Index j = 0; j < middles.rows(); ++j)
+      {
+         const Vector2d middle = middles.row(j);
+         bool within = j != static_cast<Index>(i);
+         for (std::size_t k = 0; k < 3 && within; ++k)
+         {
+            const Vector2d edge = of[(k + 1) % 3] - of[k], way = middle - of[k];
+            within = edge[0] * way[1] - edge[1] * way[0] > 0;
+         }
+         require(!within, "half-space: the triangles ", i, " and ", j,
+                 " lie on each other, they must not overlap");
+      }
+   }
+}
+
 /// Triangles that have an edge alone.
 std::vector<Index> rim_of(const DirectedEdges &edges)
 {
@@ -278,6 +301,7 @@ void HalfSpace::validate() const
       require(vertices.allFinite(),
               "half-space: a vertex of the triangles has an entry that is not finite");
       edges_of(*this);
+      refuse_overlap(*this);
       return;
    }
    require(size.allFinite() && size.minCoeff() > 0, "half-space: the edges of its rectangles ",
