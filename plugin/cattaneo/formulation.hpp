@@ -5,31 +5,45 @@
 namespace cattaneo
 {
 
-/// What the (x, y) plane of a two-dimensional mesh stands for.
+/// What the coordinates of a body stand for.
 enum class Formulation
 {
    plane,        ///< (u_x, u_y), plane strain or plane stress, per unit thickness
    axisymmetric, ///< x = r, y = z: (u_r, u_z), the whole circumference
-   torsion       ///< x = r, y = z: the twist ψ = u_θ/r, the whole circumference
+   torsion,      ///< x = r, y = z: the twist ψ = u_θ/r, the whole circumference
+   space         ///< (u_x, u_y, u_z)
 };
 
 /// What it is called in messages.
 inline const char *name(Formulation formulation)
 {
-   const char *const names[] = {"plane", "axisymmetric", "of torsion"};
+   const char *const names[] = {"plane", "axisymmetric", "of torsion", "in space"};
    return names[static_cast<int>(formulation)];
 }
 
-/// Unknowns a node: (x, y), (r, z), or the twist alone.
+/// Unknowns a node: (x, y), (r, z), the twist alone, or (x, y, z).
 inline int components(Formulation formulation)
 {
-   return formulation == Formulation::torsion ? 1 : 2;
+   return formulation == Formulation::torsion ? 1 : formulation == Formulation::space ? 3 : 2;
+}
+
+/// Number of coordinates of a place.
+inline int dimension(Formulation formulation)
+{
+   return formulation == Formulation::space ? 3 : 2;
+}
+
+/// Is x the distance from an axis?
+inline bool about_axis(Formulation formulation)
+{
+   return formulation == Formulation::axisymmetric || formulation == Formulation::torsion;
 }
 
 /// What a component is called in messages.
 inline const char *component_name(Formulation formulation, int component)
 {
-   const char *const names[3][2] = {{"x", "y"}, {"r", "z"}, {"twist", ""}};
+   const char *const names[4][3] = {
+      {"x", "y", ""}, {"r", "z", ""}, {"twist", "", ""}, {"x", "y", "z"}};
    return names[static_cast<int>(formulation)][component];
 }
 
@@ -38,7 +52,7 @@ inline const char *component_name(Formulation formulation, int component)
     of contact lines are integrals over the plane times this. */
 inline double measure(Formulation formulation, double r)
 {
-   return formulation == Formulation::plane ? 1.0 : 2 * M_PI * r;
+   return about_axis(formulation) ? 2 * M_PI * r : 1.0;
 }
 
 /** Displacement of a point at x = r for a unit value of the unknown: u_θ = r ψ in torsion. A

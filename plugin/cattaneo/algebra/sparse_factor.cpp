@@ -318,7 +318,8 @@ public:
    OneOpenMPThread &operator=(const OneOpenMPThread &) = delete;
 };
 
-/// CHOLMOD's supernodal factor in a constrained minimum degree order (CAMD).
+/// CHOLMOD's supernodal factor in a constrained minimum degree order (CAMD), or by nested
+/// dissection (METIS).
 class CholmodFactor : public ByColumns<CholmodFactor>
 {
    mutable cholmod_common common_; // CHOLMOD's workspace: solves write to it
@@ -340,8 +341,72 @@ class CholmodFactor : public ByColumns<CholmodFactor>
       cholmod_finish(&common_);
    }
 
+   /// The interior rows by nested dissection of the graph of their nodes, then the trailing
+   /// ones. False if CHOLMOD has no METIS, or METIS fails.
+   bool dissect(const LowerTriangle &K, const std::vector<int> &nodes, std::vector<int> &order)
+   {
+      // Whether CHOLMOD was built with METIS is known to the loader only.
+      decltype(&cholmod_metis) metis = nullptr;
+#if __has_include(<dlfcn.h>)
+      metis = reinterpret_cast<decltype(&cholmod_metis)>(dlsym(RTLD_DEFAULT, "cholmod_metis"));
+#endif
+      if (!metis) { return false; }
+      const int interior = K.size - K.trailing;
+      std::vector<int> numbers(nodes.begin(), nodes.begin() + interior);
+      std::sort(numbers.begin(), numbers.end());
+      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+      const auto count = static_cast<int>(numbers.size());
+      std::vector<int> node(interior);
+      std::vector<std::vector<int>> rows(count), linked(count);
+      for (int a = 0; a < interior; ++a)
+      {
+         node[a] = static_cast<int>(std::lower_bound(numbers.begin(), numbers.end(), nodes[a]) -
+                                    numbers.begin());
+         rows[node[a]].push_back(a);
+      }
+      // Columns of the graph's lower triangle, each link once.
+      for (int a = 0; a < interior; ++a)
+      {
+         for (int k = K.start[a]; k < K.start[a + 1]; ++k)
+         {
+            if (K.row[k] >= interior) { continue; }
+            const auto [low, high] = std::minmax(node[a], node[K.row[k]]);
+            linked[low].push_back(high);
+         }
+      }
+      std::vector<int> start{0}, row;
+      for (std::vector<int> &its : linked)
+      {
+         std::sort(its.begin(), its.end());
+         its.erase(std::unique(its.begin(), its.end()), its.end());
+         row.insert(row.end(), its.begin(), its.end());
+         start.push_back(static_cast<int>(row.size()));
+      }
+      cholmod_sparse graph = {};
+      graph.nrow = graph.ncol = count;
+      graph.nzmax = row.size();
+      graph.p = start.data();
+      graph.i = row.data();
+      graph.stype = -1;
+      graph.itype = CHOLMOD_INT;
+      graph.xtype = CHOLMOD_PATTERN;
+      graph.dtype = CHOLMOD_DOUBLE;
+      graph.sorted = 1;
+      graph.packed = 1;
+      std::vector<int> by_node(count);
+      if (count == 0 || !metis(&graph, nullptr, 0, 0, by_node.data(), &common_))
+      {
+         common_.status = CHOLMOD_OK;
+         return false;
+      }
+      order.clear();
+      for (int k : by_node) { order.insert(order.end(), rows[k].begin(), rows[k].end()); }
+      for (int a = interior; a < K.size; ++a) { order.push_back(a); }
+      return true;
+   }
+
 public:
-   CholmodFactor(LowerTriangle &K, const std::vector<int> &keep)
+   CholmodFactor(LowerTriangle &K, const std::vector<int> &keep, const std::vector<int> &nodes)
    {
       const OneOpenMPThread one_thread;
       cholmod_start(&common_);
@@ -367,10 +432,15 @@ public:
       A.dtype = CHOLMOD_DOUBLE;
       A.packed = 1;
 
-      std::vector<int> order(K.size), group(K.size, 0);
-      std::fill(group.end() - K.trailing, group.end(), 1);
-      check(cholmod_camd(&A, nullptr, 0, group.data(), order.data(), &common_),
-            "order the matrix");
+      std::vector<int> order(K.size);
+      if (nodes.empty() || !dissect(K, nodes, order))
+      {
+         std::vector<int> group(K.size, 0);
+         std::fill(group.end() - K.trailing, group.end(), 1);
+         order.resize(K.size);
+         check(cholmod_camd(&A, nullptr, 0, group.data(), order.data(), &common_),
+               "order the matrix");
+      }
       L_ = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common_);
       check(L_ != nullptr, "analyse the matrix");
       // CHOLMOD counts two operations for each multiplication. Most fronts are small, so only a
@@ -386,7 +456,10 @@ public:
       }
    }
 
-   ~CholmodFactor() override { release(); }
+   ~CholmodFactor() override
+   {
+      release();
+   }
    CholmodFactor(const CholmodFactor &) = delete;
    CholmodFactor &operator=(const CholmodFactor &) = delete;
 
@@ -452,7 +525,7 @@ public:
 } // namespace
 
 SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing,
-                           double shift, Backend backend)
+                           double shift, Backend backend, const std::vector<int> &nodes)
 {
    require(K.rows() == K.cols(), "sparse factor: the matrix (", K.rows(), "×", K.cols(),
            ") must be square");
@@ -461,9 +534,14 @@ SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, in
            "sparse factor: ", trailing, " trailing rows, must be from 0 to ", keep.size());
    require(std::isfinite(shift) && shift >= 0, "sparse factor: shift is ", shift,
            ", must be finite and not negative");
+   require(nodes.empty() || nodes.size() == keep.size(), "sparse factor: nodes of ",
+           nodes.size(), " rows, must be of ", keep.size(), " or of none");
    LowerTriangle lower(K, keep, trailing, shift);
 #ifdef CATTANEO_USE_CHOLMOD
-   if (backend == Backend::automatic) { impl_ = std::make_unique<CholmodFactor>(lower, keep); }
+   if (backend == Backend::automatic)
+   {
+      impl_ = std::make_unique<CholmodFactor>(lower, keep, nodes);
+   }
 #endif
    if (!impl_) { impl_ = std::make_unique<EigenFactor>(lower, keep); }
    impl_->size = lower.size;

@@ -46,8 +46,12 @@ public:
    /// of which the last `trailing` are the trailing ones. K is taken for symmetric: only one
    /// triangle is read, and K is not kept. Throws NotPositiveDefinite (an InputError) naming
    /// the row of K.
+   /// `nodes`: a number of each row of `keep`, the same for rows of one node. With it the order
+   /// is by nested dissection of the graph of nodes, where CHOLMOD was built with METIS: of
+   /// bodies in space its factor takes a half to a quarter of the work. Without it (and without
+   /// METIS) the order is one of constrained minimum degree.
    SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing, double shift,
-                Backend backend = Backend::automatic);
+                Backend backend = Backend::automatic, const std::vector<int> &nodes = {});
    ~SparseFactor();
 
    /// Schur complement of the trailing rows, in the order of `keep`, without the shift.

@@ -35,17 +35,16 @@ std::string AssembledBody::eliminated_warning() const
    const std::vector<int> rows = eliminated();
    if (rows.empty()) { return ""; }
    return eliminated_rows(rows.size(), places.formulation, places.component[rows[0]],
-                          {places.x[rows[0]], places.y[rows[0]]}) +
+                          places.called(rows[0])) +
           ": they are taken for supports that were eliminated, and are fixed";
 }
 
 std::string eliminated_rows(std::size_t count, Formulation formulation, int component,
-                            const Eigen::Vector2d &place)
+                            const std::string &place)
 {
    std::ostringstream text;
    text << count << " rows of the stiffness hold nothing but their diagonal, the first is "
-        << component_name(formulation, component) << " of the node at (" << place[0] << ", "
-        << place[1] << ")";
+        << component_name(formulation, component) << " of the node at " << place;
    return text.str();
 }
 
@@ -99,14 +98,17 @@ void AssembledBody::validate() const
               static_cast<int>(places.component.size()) == size,
            "assembled body: places of ", places.x.size(), ", ", places.y.size(), " and ",
            places.component.size(), " dofs, the stiffness has ", size);
+   const Eigen::Index heights = places.formulation == Formulation::space ? size : 0;
+   require(places.z.size() == heights, "assembled body: z of ", places.z.size(),
+           " dofs, must be of ", heights, " (of all in space, else of none)");
    std::vector<bool> held(size, false);
    for (int dof = 0; dof < size; ++dof)
    {
       require(places.component[dof] >= 0 && places.component[dof] < components,
               "assembled body: dof ", dof, " has component ", places.component[dof],
               ", must be from 0 to ", components - 1);
-      require(std::isfinite(places.x[dof]) && std::isfinite(places.y[dof]),
-              "assembled body: the place of dof ", dof, " is not finite");
+      require(places.place(dof).allFinite(), "assembled body: the place of dof ", dof,
+              " is not finite");
    }
    for (std::size_t k = 0; k < fixed.size(); ++k)
    {
@@ -120,9 +122,8 @@ void AssembledBody::validate() const
    {
       require(
          K.diagonal(dof) == 0, "assembled body: row ", dof, " of the stiffness, component ",
-         component_name(places.formulation, places.component[dof]), " of the node (",
-         places.x[dof], ", ", places.y[dof], "), holds nothing but its diagonal ",
-         K.diagonal(dof),
+         component_name(places.formulation, places.component[dof]), " of the node ",
+         places.called(dof), ", holds nothing but its diagonal ", K.diagonal(dof),
          ", as that of a support which was eliminated: pass the stiffness as assembled and "
          "fix the row, or say that supports are in it (supports_left_out of a stiffness on "
          "nodes, else grounded), such rows are fixed then");

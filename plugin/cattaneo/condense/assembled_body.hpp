@@ -60,7 +60,7 @@ struct AssembledBody
    /// names. They may displace only fixed dofs that are coupled to others (not those of an
    /// eliminated matrix). The stiffness must be symmetric, not one triangle. A body that is not
    /// grounded may have no eliminated() rows. No node may be held by a diagonal alone across
-   /// the axes (a support on a slope that was eliminated).
+   /// the axes (a support on a slope that was eliminated), which is not looked for in space.
    void validate() const;
    /// The message about a load that displaces dofs without coupling to others.
    static constexpr const char *feels_nothing =
@@ -68,8 +68,9 @@ struct AssembledBody
       "matrix eliminated? Pass it as assembled (SpMat() after Finalize)";
 };
 
-/// The message about that many eliminated rows, with the first of them.
+/// The message about that many eliminated rows, with the component and the place, as text, of
+/// the first of them.
 std::string eliminated_rows(std::size_t count, Formulation formulation, int component,
-                            const Eigen::Vector2d &place);
+                            const std::string &place);
 
 } // namespace cattaneo

@@ -46,6 +46,52 @@ std::vector<int> align(ContactLine &line, const ContactDofs &contact)
    return rows;
 }
 
+/// The frame of a node that has the axes which supports hold. A surface that meets a support at
+/// neither 0 nor 90 degrees, to 10 degrees, is refused.
+Eigen::Matrix3d on_supports(const Eigen::Vector3d &normal, const std::array<bool, 3> &held,
+                            const std::string &where)
+{
+   const auto count = std::count(held.begin(), held.end(), true);
+   if (count == 0 || count == 3) { return frame_of(normal); }
+   // The axis that is held alone, or that alone is free.
+   const auto axis =
+      static_cast<int>(std::find(held.begin(), held.end(), count == 1) - held.begin());
+   const Eigen::Vector3d e = Eigen::Vector3d::Unit(axis);
+   const double along = normal.dot(e), most = std::sin(10 * std::acos(-1.0) / 180);
+   const bool across = std::abs(along) <= most;
+   require(across || normal.cross(e).norm() <= most, "condense: a support holds ",
+           count == 1 ? "one component" : "two components", " of the contact node at ", where,
+           ", and the surface meets it at neither 0 nor 90 degrees, to 10");
+   const Eigen::Vector3d n = across ? Eigen::Vector3d((normal - along * e).normalized())
+                                    : Eigen::Vector3d(std::copysign(1.0, along) * e);
+   // Along the normal: the two tangents are alike to the support.
+   if (!across) { return frame_of(n); }
+   Eigen::Matrix3d frame;
+   frame << e.transpose(), n.cross(e).transpose(), n.transpose();
+   return frame;
+}
+
+/// The surface meets its supports, and the rows in its frames that these hold.
+std::vector<int> align(ContactSurface &surface, const std::vector<int> &held)
+{
+   const auto n = static_cast<int>(surface.size());
+   std::vector<std::array<bool, 3>> components(n, {false, false, false});
+   for (int position : held) { components[position % n][position / n] = true; }
+   std::vector<int> rows;
+   for (int i = 0; i < n; ++i)
+   {
+      SurfaceNode &node = surface.nodes[i];
+      node.frame = on_supports(node.normal(), components[i],
+                               place_text(node.position, Formulation::space));
+      for (int k = 0; k < 3; ++k)
+      {
+         if (lies_in(node.frame.row(k), components[i])) { rows.push_back(k * n + i); }
+      }
+   }
+   std::sort(rows.begin(), rows.end());
+   return rows;
+}
+
 } // namespace
 
 Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped)
@@ -102,19 +148,18 @@ std::vector<int> ContactDofs::free() const
    return dofs;
 }
 
-ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs)
+ContactDofs contact_dofs(const Trace &trace, Formulation formulation, int dofs)
 {
-   line.validate();
-   require(line.formulation == formulation, "condense: the contact line is ",
-           name(line.formulation), ", the body ", name(formulation),
+   require(trace.formulation == formulation, "condense: the contact line is ",
+           name(trace.formulation), ", the body ", name(formulation),
            ", must be the same (is it a line of this body?)");
-   const auto n = line.size();
-   std::vector<int> contact(components(formulation) * n);
+   const Eigen::Index n = trace.size();
+   std::vector<int> contact(trace.dofs.cols() * n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      for (int c = 0; c < components(formulation); ++c)
+      for (Eigen::Index c = 0; c < trace.dofs.cols(); ++c)
       {
-         const int dof = line.nodes[i].dofs[c];
+         const int dof = trace.dofs(i, c);
          require(dof >= 0 && dof < dofs, "condense: contact dof ", dof, " of node ", i,
                  " of the line, must be from 0 to ", dofs - 1, " (is it a line of this body?)");
          contact[c * n + i] = dof;
@@ -123,12 +168,24 @@ ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int d
    return {contact, {}};
 }
 
-void ContactDofs::move(int position, Eigen::Index load, double by, const ContactLine &line,
+ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs)
+{
+   line.validate();
+   return contact_dofs(Trace(line), formulation, dofs);
+}
+
+void ContactDofs::move(int position, Eigen::Index load, double by, const Trace &trace,
                        const std::vector<BodyLoad> &loads)
 {
-   if (line.formulation == Formulation::torsion)
+   const std::string pattern = "by load pattern '" + loads[load].name + "'";
+   if (trace.formulation == Formulation::torsion)
    {
-      refuse_motion(line, position, "is turned by load pattern '" + loads[load].name + "'");
+      refuse_motion(trace, position, "is turned " + pattern);
+   }
+   if (trace.formulation == Formulation::space)
+   {
+      refuse_motion(trace, position,
+                    "is displaced " + pattern + ", which is not done in space");
    }
    if (moved.size() == 0)
    {
@@ -138,19 +195,17 @@ void ContactDofs::move(int position, Eigen::Index load, double by, const Contact
    moved(position, load) = by;
 }
 
-bool moves_plane(const ContactLine &line, int position, const DofPlaces &places,
+bool moves_plane(const Trace &trace, int position, const DofPlaces &places,
                  const std::vector<int> &fixed, const std::vector<BodyLoad> &loads)
 {
-   const auto n = static_cast<int>(line.size());
-   const int c = position / n;
-   const LineNode &node = line.nodes[position % n];
-   const Eigen::VectorXd &along = c == 0 ? places.x : places.y;
+   const auto n = static_cast<int>(trace.size());
+   const int c = position / n, i = position % n;
    return std::any_of(fixed.begin(), fixed.end(),
                       [&](int dof)
                       {
                          return places.component[dof] == c &&
-                                std::abs(along[dof] - node.position[c]) <=
-                                   1e-6 * node.spacing &&
+                                std::abs(places.place(dof)[c] - trace.position(i, c)) <=
+                                   1e-6 * trace.spacing[i] &&
                                 std::any_of(loads.begin(), loads.end(),
                                             [&](const BodyLoad &load) {
                                                return load.control == Control::displacement &&
@@ -159,24 +214,24 @@ bool moves_plane(const ContactLine &line, int position, const DofPlaces &places,
                       });
 }
 
-void refuse_motion(const ContactLine &line, int position, const std::string &how)
+void refuse_motion(const Trace &trace, int position, const std::string &how)
 {
-   const auto n = static_cast<int>(line.size());
+   const auto n = static_cast<int>(trace.size());
    throw InputError(
-      std::string("condense: component ") + component_name(line.formulation, position / n) +
-      " of the contact node at " + as_text(line.nodes[position % n].position) + " " + how +
+      std::string("condense: component ") + component_name(trace.formulation, position / n) +
+      " of the contact node at " + trace.called(position % n) + " " + how +
       ", contact nodes must be free, held or moved by a load: the contact must end before it");
 }
 
-CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
-                              const ContactDofs &contact, Condensation found)
+namespace
 {
-   CondensedBody result;
-   result.line = line;
+
+/// What a condensation found, in the frames of the body's trace, which knows its supports.
+CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads,
+                        const ContactDofs &contact, Condensation found)
+{
    if (!contact.held.empty())
    {
-      result.held = align(result.line, contact);
-      result.moved = contact.moved;
       const std::vector<int> free = contact.free_positions();
       const auto rows = static_cast<Eigen::Index>(contact.all.size());
       spread(found.S, free, rows);
@@ -193,15 +248,15 @@ CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoa
    const Equilibrium equilibrium(found.free);
    equilibrium.impose_on_stiffness(found.S);
    equilibrium.impose_on_forces(found.clamped.forces);
-   const FrameChange frames = FrameChange::of(result.line, result.held);
+   const FrameChange frames = frames_of(result);
    result.S = frames.both(std::move(found.S));
    // Displacements change with the frames as forces do, but for those of torsion, r times the
    // twist.
    const Eigen::MatrixXd &motions = equilibrium.motions();
-   result.free_motions = line.formulation == Formulation::torsion
-                            ? thin_qr(frames.a.cwiseInverse().asDiagonal() * motions).Q
-                            : frames.inverse().transposed().rows(motions);
-   if (line.formulation != Formulation::torsion && motions.cols() > 0 && !frames.rotates())
+   const bool twists = result.line.formulation == Formulation::torsion;
+   result.free_motions = twists ? thin_qr(frames.inverse().rows(motions)).Q
+                                : frames.inverse().transposed().rows(motions);
+   if (!twists && motions.cols() > 0 && !frames.rotates())
    {
       result.free_motions = thin_qr(result.free_motions).Q;
    }
@@ -213,14 +268,40 @@ CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoa
       result.free_motions.row(row).setZero();
       local.row(row).setZero();
    }
-   const auto n = line.size();
+   // Of torsion all are tangential.
+   const Eigen::Index normals = twists ? 0 : result.nodes();
    for (std::size_t k = 0; k < loads.size(); ++k)
    {
       const auto force = local.col(static_cast<Eigen::Index>(k));
-      result.patterns.push_back(
-         {loads[k].name, loads[k].control, force.head(n), force.tail(local.rows() - n)});
+      result.patterns.push_back({loads[k].name, loads[k].control,
+                                 force.head(local.rows() - normals), force.tail(normals)});
    }
    return result;
+}
+
+} // namespace
+
+CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
+                              const ContactDofs &contact, Condensation found)
+{
+   CondensedBody result;
+   result.line = line;
+   if (!contact.held.empty())
+   {
+      result.held = align(result.line, contact);
+      result.moved = contact.moved;
+   }
+   return in_frames(std::move(result), loads, contact, std::move(found));
+}
+
+CondensedBody in_local_frames(const ContactSurface &surface, const std::vector<BodyLoad> &loads,
+                              const ContactDofs &contact, Condensation found)
+{
+   CondensedBody result;
+   result.line.formulation = Formulation::space;
+   result.surface = surface;
+   if (!contact.held.empty()) { result.held = align(result.surface, contact.held); }
+   return in_frames(std::move(result), loads, contact, std::move(found));
 }
 
 } // namespace cattaneo

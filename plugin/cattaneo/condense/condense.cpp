@@ -6,6 +6,7 @@
 #include <cattaneo/condense/stiffness_error.hpp>
 #include <cattaneo/input_error.hpp>
 #include <limits>
+#include <map>
 
 namespace cattaneo
 {
@@ -69,6 +70,20 @@ public:
    }
 };
 
+/// In space a number of each kept row's node, by its place; else none.
+std::vector<int> nodes_of(const std::vector<int> &keep, const DofPlaces &places)
+{
+   std::vector<int> numbers;
+   if (places.formulation != Formulation::space) { return numbers; }
+   std::map<std::array<double, 3>, int> known;
+   for (int dof : keep)
+   {
+      const std::array<double, 3> at = {places.x[dof], places.y[dof], places.z[dof]};
+      numbers.push_back(known.emplace(at, static_cast<int>(known.size())).first->second);
+   }
+   return numbers;
+}
+
 std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
                                                   const std::vector<int> &contact)
 {
@@ -99,16 +114,17 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
            "with K positive semidefinite: its sign may be the other");
    try
    {
-      made->factor =
-         std::make_unique<SparseFactor>(body.K.view(), made->keep, made->contact, made->shift);
+      made->factor = std::make_unique<SparseFactor>(
+         body.K.view(), made->keep, made->contact, made->shift,
+         SparseFactor::Backend::automatic, nodes_of(made->keep, body.places));
    }
    catch (const NotPositiveDefinite &error)
    {
       const DofPlaces &places = body.places;
       require(false, "condense: the stiffness is not positive definite at component ",
-              component_name(places.formulation, places.component[error.row]), " of the node (",
-              places.x[error.row], ", ", places.y[error.row],
-              "), it must be for every motion that leaves the supports at rest");
+              component_name(places.formulation, places.component[error.row]), " of the node ",
+              places.called(error.row),
+              ", it must be for every motion that leaves the supports at rest");
    }
    return made;
 }
@@ -131,9 +147,9 @@ void require_held(const FactoredStiffness &of, const AssembledBody &body, const 
    Eigen::Index most = 0;
    size.maxCoeff(&most);
    const double left = eps * (K.cwiseAbs() * size).maxCoeff();
-   require(!(left > 1e-3 * all), "condense: load '", load.name, "' moves the node (",
-           body.places.x[most], ", ", body.places.y[most], ") by ", far,
-           " per unit, which leaves ", left / all,
+   require(!(left > 1e-3 * all), "condense: load '", load.name, "' moves the node ",
+           body.places.called(static_cast<int>(most)), " by ", far, " per unit, which leaves ",
+           left / all,
            " of its forces to round-off, at most 0.001 is allowed: something must hold what it "
            "pushes (a part on a single node is free to turn)");
 }
@@ -184,26 +200,25 @@ ClampedLoads clamp(const AssembledBody &body, FactorSolver &solver, Counters &co
            at_fixed.transpose() * solver.prescribed};
 }
 
-/// A line made by hand has the dofs of the nodes that it names, to 1e-9 of its size and to
+/// A trace made by hand has the dofs of the nodes that it names, to 1e-9 of its size and to
 /// round-off of its coordinates.
-void require_in_place(const ContactLine &line, const DofPlaces &places)
+void require_in_place(const Trace &trace, const DofPlaces &places)
 {
-   const auto all = line.each(&LineNode::position);
-   const double box = (all.colwise().maxCoeff() - all.colwise().minCoeff()).maxCoeff();
-   for (Eigen::Index i = 0; i < line.size(); ++i)
+   const double box =
+      (trace.position.colwise().maxCoeff() - trace.position.colwise().minCoeff()).maxCoeff();
+   for (Eigen::Index i = 0; i < trace.size(); ++i)
    {
-      const LineNode &node = line.nodes[i];
+      const Eigen::Vector3d at = trace.position.row(i);
       const double allowed =
-         1e-9 * std::max(box, node.spacing) + 1e-15 * node.position.lpNorm<Eigen::Infinity>();
-      for (int c = 0; c < components(line.formulation); ++c)
+         1e-9 * std::max(box, trace.spacing[i]) + 1e-15 * at.lpNorm<Eigen::Infinity>();
+      for (int c = 0; c < components(trace.formulation); ++c)
       {
-         const int dof = node.dofs[c];
-         const Eigen::Vector2d place(places.x[dof], places.y[dof]);
-         require(places.component[dof] == c && (place - node.position).norm() <= allowed,
-                 "condense: dof ", dof, " of component ", component_name(line.formulation, c),
-                 " of node ", i, " of the line, at ", node.position, ", is component ",
-                 component_name(line.formulation, places.component[dof]), " of the node ",
-                 place, " of the body, must be the same");
+         const int dof = trace.dofs(i, c);
+         require(places.component[dof] == c && (places.place(dof) - at).norm() <= allowed,
+                 "condense: dof ", dof, " of component ", component_name(trace.formulation, c),
+                 " of node ", i, " of the line, at ", trace.called(i), ", is component ",
+                 component_name(trace.formulation, places.component[dof]), " of the node ",
+                 places.called(dof), " of the body, must be the same");
       }
    }
 }
@@ -317,8 +332,13 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
 
 } // namespace
 
-CondensedBody condense(const AssembledBody &body, const ContactLine &line,
-                       const CondensedBody *alike)
+namespace
+{
+
+/// To a line or a surface.
+template <class Nodes>
+CondensedBody condensed(const AssembledBody &body, const Nodes &line,
+                        const CondensedBody *alike)
 {
    body.validate();
    // Supports may have been eliminated by the program that wrote the stiffness.
@@ -331,10 +351,12 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       supported.fixed = std::move(fixed);
       // Their rows are fixed from now on, and the body is condensed again.
       supported.K = without_links(body.K, gone);
-      return condense(supported, line, alike);
+      return condensed(supported, line, alike);
    }
-   ContactDofs contact = contact_dofs(line, body.places.formulation, body.K.size());
-   require_in_place(line, body.places);
+   line.validate();
+   const Trace trace(line);
+   ContactDofs contact = contact_dofs(trace, body.places.formulation, body.K.size());
+   require_in_place(trace, body.places);
    for (std::size_t a = 0; a < contact.all.size(); ++a)
    {
       if (!std::binary_search(body.fixed.begin(), body.fixed.end(), contact.all[a]))
@@ -343,7 +365,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       }
       const auto position = static_cast<int>(a);
       contact.held.push_back(position);
-      if (moves_plane(line, position, body.places, body.fixed, body.loads))
+      if (moves_plane(trace, position, body.places, body.fixed, body.loads))
       {
          contact.in_moved_plane.push_back(position);
       }
@@ -354,17 +376,31 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
             load.control == Control::displacement ? load.values[contact.all[a]] : 0.0;
          if (by != 0)
          {
-            contact.move(position, static_cast<Eigen::Index>(k), by, line, body.loads);
+            contact.move(position, static_cast<Eigen::Index>(k), by, trace, body.loads);
          }
       }
       for (const BlockMotion &block : body.blocks)
       {
-         if (block.motion[contact.all[a]] != 0) { refuse_motion(line, position, in_guide); }
+         if (block.motion[contact.all[a]] != 0) { refuse_motion(trace, position, in_guide); }
       }
    }
    return in_local_frames(
       line, body.loads, contact,
       condense_by_factor(body, contact.free(), alike ? alike->solver.get() : nullptr));
+}
+
+} // namespace
+
+CondensedBody condense(const AssembledBody &body, const ContactLine &line,
+                       const CondensedBody *alike)
+{
+   return condensed(body, line, alike);
+}
+
+CondensedBody condense(const AssembledBody &body, const ContactSurface &surface,
+                       const CondensedBody *alike)
+{
+   return condensed(body, surface, alike);
 }
 
 } // namespace cattaneo

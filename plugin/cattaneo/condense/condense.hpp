@@ -20,5 +20,9 @@ namespace cattaneo
     the trace (CondensedBody::held). */
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        const CondensedBody *alike = nullptr);
+/// The same in space, to the nodes of a surface. InputError also if a support that holds one or
+/// two components of a node meets the surface there at neither 0 nor 90 degrees, to 10.
+CondensedBody condense(const AssembledBody &body, const ContactSurface &surface,
+                       const CondensedBody *alike = nullptr);
 
 } // namespace cattaneo

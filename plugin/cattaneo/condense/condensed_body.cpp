@@ -18,35 +18,54 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd &u,
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
    ++counters.field_recoveries;
-   const Eigen::VectorXd contact = FrameChange::of(line, held).transposed().rows(u);
+   const Eigen::VectorXd contact = frames_of(*this).transposed().rows(u);
    return solver->recover(contact(free_positions()), multipliers, counters);
 }
 
 std::vector<int> CondensedBody::free_positions() const
 {
-   const auto n = static_cast<int>(line.size());
+   const auto n = static_cast<int>(nodes());
+   const auto is_held = [this](int row)
+   { return std::binary_search(held.begin(), held.end(), row); };
    std::vector<int> positions;
    for (int row : held)
    {
       const int i = row % n;
+      if (line.formulation == Formulation::space)
+      {
+         // Columns of the frame: the axes in it.
+         const std::array<bool, 3> rows = {is_held(i), is_held(n + i), is_held(2 * n + i)};
+         for (int c = 0; c < 3; ++c)
+         {
+            if (lies_in(surface.nodes[i].frame.col(c), rows))
+            {
+               positions.push_back(c * n + i);
+            }
+         }
+         continue;
+      }
       const LineNode &node = line.nodes[i];
       const Eigen::Vector2d axis = row < n ? node.tangent : node.normal();
-      const bool both = std::binary_search(held.begin(), held.end(), row < n ? row + n : i);
+      const bool both = is_held(row < n ? row + n : i);
       const int c =
          line.formulation == Formulation::torsion || both ? row / n : nearest_axis(axis);
       positions.push_back(c * n + i);
    }
    std::sort(positions.begin(), positions.end());
+   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
    return others(positions, S.rows());
+}
+
+Eigen::MatrixX3d CondensedBody::places() const
+{
+   return (surface.size() > 0 ? Trace(surface) : Trace(line)).position;
 }
 
 double CondensedBody::error_estimate()
 {
    // In global components, as the operator is.
    const bool twists = line.formulation == Formulation::torsion;
-   const Eigen::VectorXd r = line.each(&LineNode::position).col(0);
-   const FrameChange frames = FrameChange::of(line, held),
-                     back = twists ? FrameChange{r, {}, {}, {}} : frames.inverse();
+   const FrameChange frames = frames_of(*this), back = frames.inverse();
    Eigen::MatrixXd motions = free_motions;
    if (!twists)
    {
@@ -55,7 +74,7 @@ double CondensedBody::error_estimate()
    }
    else if (motions.cols() > 0) // u_θ = r ψ
    {
-      motions = r.cwiseInverse().asDiagonal() * motions;
+      motions = frames.rows(motions);
       motions.col(0).normalize();
    }
    const std::vector<int> free = free_positions();
@@ -81,24 +100,26 @@ void CondensedBody::thicken(double times)
    }
 }
 
-Eigen::MatrixXd CondensedBody::rigid_motions() const
+Eigen::MatrixXd CondensedBody::rigid_motions(const Eigen::Vector3d &centre) const
 {
-   const auto n = line.size();
-   const auto position = line.each(&LineNode::position);
-   if (line.formulation == Formulation::torsion) { return position.col(0); }
-   const bool plane = line.formulation == Formulation::plane;
-   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(2 * n, plane ? 3 : 1);
-   Z.col(plane ? 1 : 0).tail(n).setOnes();
-   if (plane)
+   const Eigen::MatrixX3d at = places();
+   const Eigen::Index n = at.rows();
+   if (line.formulation == Formulation::torsion) { return at.col(0); }
+   const int dimension = cattaneo::dimension(line.formulation);
+   const bool axis = about_axis(line.formulation);
+   Eigen::MatrixXd Z(dimension * n, axis ? 1 : 3 * (dimension - 1));
+   for (Eigen::Index i = 0; i < n; ++i)
    {
-      Z.col(0).head(n).setOnes();
-      Z.col(2) << -position.col(1), position.col(0);
+      Eigen::MatrixXd own = rigid_at(at.row(i), centre, dimension);
+      if (axis) { own = own.col(1).eval(); } // along it alone
+      for (int c = 0; c < dimension; ++c) { Z.row(c * n + i) = own.row(c); }
    }
-   return FrameChange::of(line, held).inverse().transposed().rows(Z);
+   return frames_of(*this).inverse().transposed().rows(Z);
 }
 
-Eigen::Matrix2d CondensedBody::directions(Eigen::Index node) const
+Eigen::MatrixXd CondensedBody::directions(Eigen::Index node) const
 {
+   if (line.formulation == Formulation::space) { return surface.nodes[node].frame.transpose(); }
    const auto holds = [&](Eigen::Index row)
    { return std::binary_search(held.begin(), held.end(), static_cast<int>(row)); };
    return cattaneo::directions(line.nodes[node], holds(node), holds(node + line.size()));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/condense/contact_line.hpp>
+#include <cattaneo/condense/contact_surface.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/load_pattern.hpp>
 #include <memory>
@@ -28,15 +29,18 @@ public:
     frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
 
     In a torsion body u = v = u_θ and f = q are circumferential, positive in the direction of
-    the twist whatever the line's frames.
+    the twist whatever the line's frames. In space u = {v₁; v₂; w} in the frames of the surface:
+    all first tangents, all second ones, then the normals.
 
     Nothing of the program that assembled the body is kept but its matrix. */
 class CondensedBody
 {
 public:
-   std::string name; ///< what sentences about unions call it; may be empty
-   ContactLine line; ///< its contact nodes, in their order
-   /// 2n × 2n (torsion: n × n), symmetric; zero in the rows and columns that are held.
+   std::string name;            ///< what sentences about unions call it; may be empty
+   ContactLine line;            ///< its contact nodes, in their order; none in space
+   ContactSurface surface = {}; ///< in space: its contact nodes, else none
+   /// 2n × 2n (torsion: n × n, in space 3n × 3n), symmetric; zero in the rows and columns that
+   /// are held.
    Eigen::MatrixXd S;
    /// Rows of S of components that supports hold, increasing. A node with one held component
    /// keeps the frame of the line, at any angle to that component. With v held the node moves
@@ -49,9 +53,9 @@ public:
    /// components that loads move. Empty where all that is held is at rest.
    Eigen::MatrixXd moved;
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
-   Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)
-   int rigid_modes =
-      0; ///< rigid motions that the supports leave free (0 to 3; 0 or 1 about an axis)
+   Eigen::MatrixXd H;   ///< loads by loads with the contact clamped (see ReducedProblem::H)
+   int rigid_modes = 0; ///< rigid motions that the supports leave free (0 to 3; in space 0 to
+                        ///< 6; 0 or 1 about an axis)
    /// The motions of the contact nodes that neither supports nor stiffness resist, in local
    /// frames: rows of S × k, orthonormal columns. S does not resist them to round-off.
    Eigen::MatrixXd free_motions;
@@ -75,13 +79,20 @@ public:
    /// thinner one of two bodies. InputError about an axis, or unless it is positive and finite.
    void thicken(double times);
 
+   /// Number of contact nodes.
+   Eigen::Index nodes() const { return S.rows() / components(line.formulation); }
+   /// n × 3, places of the contact nodes; z is 0 but in space.
+   Eigen::MatrixX3d places() const;
+
    /// The rigid motions of the contact nodes in local frames: plane 2n × 3 (x, y, rotation
-   /// about the origin), axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
-   Eigen::MatrixXd rigid_motions() const;
+   /// about `centre`), in space 3n × 6 (x, y, z, rotations about axes through `centre`),
+   /// axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
+   Eigen::MatrixXd rigid_motions(const Eigen::Vector3d &centre = {0, 0, 0}) const;
 
    /// Displacements in x and y of a node for v = 1 and for w = 1, as columns: its tangent and
-   /// its normal, but where supports hold one of its components.
-   Eigen::Matrix2d directions(Eigen::Index node) const;
+   /// its normal, but where supports hold one of its components. In space 3 × 3: its tangents
+   /// and its normal.
+   Eigen::MatrixXd directions(Eigen::Index node) const;
    /// Do supports hold the component, 0: x or r, 1: y or z, of a node? Not of torsion.
    bool holds(Eigen::Index node, int component) const;
    /// Does a load move the component, 0: x or r, 1: y or z, of a node?
@@ -90,7 +101,7 @@ public:
    std::shared_ptr<const BodySolver> solver; ///< shared by copies, of the free components
 
 private:
-   /// Positions in {x; y} of all nodes of the components that are free.
+   /// Positions in {x; y} (in space {x; y; z}) of all nodes of the components that are free.
    std::vector<int> free_positions() const;
 };
 

@@ -188,6 +188,8 @@ const LineChain &ContactLine::chain_of(Eigen::Index node) const
 void ContactLine::validate() const
 {
    require(!nodes.empty(), "contact line: there are no nodes, must be at least one");
+   require(formulation != Formulation::space,
+           "contact line: it is of a body in space, whose contact must be on a surface");
    for (Eigen::Index i = 0; i < size(); ++i)
    {
       const LineNode &node = nodes[i];

@@ -99,9 +99,8 @@ FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> 
          require(false, "unsupported body: supports (", body.fixed.size(),
                  " dofs) and contact nodes (", contact.size() / components(places.formulation),
                  ") together leave ", still.cols(), " rigid motion(s) free",
-                 parts.size() > 1 ? " of the separate part" : "",
-                 " of the body with the node (", places.x[dof], ", ", places.y[dof],
-                 "), must leave none");
+                 parts.size() > 1 ? " of the separate part" : "", " of the body with the node ",
+                 places.called(dof), ", must leave none");
       }
       // Elements of lower order than their geometry resist rotation a little: no equilibrium
       // there.

@@ -63,7 +63,7 @@ bool is_linked(const RowEntries &entries, Formulation formulation, int component
 {
    if (entries.stand_out(most)) { return true; }
    if (!entries.link(most)) { return false; }
-   if (formulation != Formulation::plane && component == 0) { return entries.diagonal > 0; }
+   if (about_axis(formulation) && component == 0) { return entries.diagonal > 0; }
    return std::abs(resistance) <= 1e-6 * entries.sum;
 }
 
@@ -133,6 +133,7 @@ std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
 std::optional<AloneDirection> alone_on_a_slope(const SparseView &K, const DofPlaces &places,
                                                const std::vector<int> &fixed)
 {
+   if (places.formulation == Formulation::space) { return std::nullopt; }
    // The two components in the plane; about an axis they are radial and axial.
    std::map<std::pair<double, double>, std::pair<std::vector<int>, std::vector<int>>> nodes;
    for (int dof = 0; dof < K.rows(); ++dof)

@@ -12,6 +12,8 @@ ContactLine straight_line(const std::vector<double> &grid, int order, Formulatio
    require(order >= 1, "straight line: its order is ", order, ", must be at least 1");
    require(grid.size() >= 2, "straight line: it has ", grid.size(),
            " places, must have at least two");
+   require(formulation != Formulation::space,
+           "straight line: it is in space, must be plane, about an axis or of torsion");
    ContactLine line;
    line.formulation = formulation;
    LineChain chain;

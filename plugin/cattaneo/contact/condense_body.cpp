@@ -217,7 +217,8 @@ void require_not_eliminated(const ElasticBody &body)
    if (alone == 0) { return; }
    require(false, "condense: ",
            eliminated_rows(static_cast<std::size_t>(alone), places.formulation,
-                           static_cast<int>(first[2]), {first[0], first[1]}),
+                           static_cast<int>(first[2]),
+                           as_text(Eigen::Vector2d(first[0], first[1]))),
            was_eliminated);
 }
 

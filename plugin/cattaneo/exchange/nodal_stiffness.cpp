@@ -21,6 +21,12 @@ using Eigen::Vector2d;
 namespace
 {
 
+/// What directions there are, in messages.
+const char *directions_of(Formulation formulation)
+{
+   return formulation == Formulation::space ? ", must be 1, 2 or 3" : ", must be 1 or 2";
+}
+
 constexpr const char *leave_free =
    "leave it free in the program that writes the matrix, and fix or move it here";
 
@@ -48,7 +54,7 @@ Segment segment_through(const NodalStiffness::Nodes &nodes,
       each.id = nodes[a];
       each.node.position = points.col(a);
       each.node.tangent = slopes.col(a).normalized();
-      each.on_axis = formulation != Formulation::plane && std::abs(points(0, a)) <= axis;
+      each.on_axis = about_axis(formulation) && std::abs(points(0, a)) <= axis;
       if (a == 0) { continue; }
       const double from = basis.nodes[a - 1], step = basis.nodes[a] - from;
       each.node.arc_length = segment[a - 1].node.arc_length;
@@ -78,16 +84,19 @@ std::map<NodeDof, int> NodalStiffness::rows() const
    for (std::size_t row = 0; row < dofs.size(); ++row)
    {
       const NodeDof &dof = dofs[row];
-      require(dof.direction == 1 || dof.direction == 2, "stiffness '", name, "': row ", row,
-              " is direction ", dof.direction, " of node ", dof.node, ", must be 1 or 2");
+      require(dof.direction >= 1 && dof.direction <= components(formulation), "stiffness '",
+              name, "': row ", row, " is direction ", dof.direction, " of node ", dof.node,
+              directions_of(formulation));
       require(rows.emplace(dof, row).second, "stiffness '", name, "': direction ",
               dof.direction, " of node ", dof.node, " has a second row ", row,
               ", must have one");
       const auto place = places.find(dof.node);
-      require(place != places.end() && place->second.allFinite(), "stiffness '", name,
-              "': node ", dof.node,
-              " has no place, must have two finite coordinates: is the deck or the file of "
-              "places that of this matrix?");
+      const bool flat = formulation != Formulation::space;
+      require(place != places.end() && place->second.allFinite() &&
+                 (flat || (z.count(dof.node) == 1 && std::isfinite(z.at(dof.node)))),
+              "stiffness '", name, "': node ", dof.node, " has no place, must have ",
+              flat ? "two" : "three",
+              " finite coordinates: is the deck or the file of places that of this matrix?");
    }
    return rows;
 }
@@ -98,8 +107,8 @@ void NodalStiffness::validate() const
    require(size > 0 && K.cols() == size && static_cast<Index>(dofs.size()) == size,
            "stiffness '", name, "': it is ", size, "×", K.cols(), " with ", dofs.size(),
            " dofs, must be square and have a dof for each row");
-   require(components(formulation) == 2, "stiffness '", name,
-           "': it is of torsion, must be plane or axisymmetric");
+   require(formulation != Formulation::torsion, "stiffness '", name,
+           "': it is of torsion, must be plane, axisymmetric or in space");
    rows();
    const double near_axis = axis();
    for (const auto &[node, place] : places)
@@ -139,8 +148,8 @@ const NodalStiffness::Nodes &NodalStiffness::nodes_of(const std::string &set) co
 std::vector<int> NodalStiffness::rows_of(const Nodes &nodes, int direction,
                                          bool missing_allowed) const
 {
-   require(direction == 1 || direction == 2, "stiffness '", name, "': direction ", direction,
-           ", must be 1 or 2");
+   require(direction >= 1 && direction <= components(formulation), "stiffness '", name,
+           "': direction ", direction, directions_of(formulation));
    const std::map<NodeDof, int> all = rows();
    std::vector<int> found;
    for (int node : nodes)
@@ -238,26 +247,39 @@ double NodalStiffness::axis() const
    return 1e-9 * farthest;
 }
 
+Eigen::Vector3d NodalStiffness::place(int node) const
+{
+   const Vector2d &at = places.at(node);
+   return {at[0], at[1], formulation == Formulation::space ? z.at(node) : 0.0};
+}
+
 void NodalStiffness::require_free(const DofPlaces &at) const
 {
-   const bool plane = formulation == Formulation::plane;
-   for (int motion = plane ? 0 : 1; motion < (plane ? 3 : 2); ++motion)
+   constexpr const char *in_plane[] = {"a translation along x", "a translation along y",
+                                       "a rotation"};
+   constexpr const char *in_space[] = {"a translation along x", "a translation along y",
+                                       "a translation along z", "a rotation about x",
+                                       "a rotation about y",    "a rotation about z"};
+   const int dimension = cattaneo::dimension(formulation), count = 3 * (dimension - 1);
+   const Eigen::Vector3d origin(0, 0, 0);
+   Eigen::MatrixXd motions(K.rows(), count);
+   for (Index row = 0; row < motions.rows(); ++row)
    {
-      Eigen::VectorXd u(K.rows());
-      for (Index row = 0; row < u.size(); ++row)
-      {
-         const int c = at.component[row];
-         u[row] = motion < 2 ? c == motion : c == 0 ? -at.y[row] : at.x[row];
-      }
+      const auto dof = static_cast<int>(row);
+      motions.row(row) = rigid_at(at.place(dof), origin, dimension).row(at.component[dof]);
+   }
+   for (int motion = 0; motion < count; ++motion)
+   {
+      // About an axis a body is free along it alone.
+      if (about_axis(formulation) && motion != 1) { continue; }
+      const Eigen::VectorXd u = motions.col(motion);
       const double energy = u.dot(K * u), size = u.cwiseAbs().dot(K.cwiseAbs() * u.cwiseAbs());
-      constexpr const char *called[] = {"a translation along x", "a translation along y",
-                                        "a rotation"};
       std::ostringstream share; // of no more digits than say something
       share.precision(2);
       share << std::abs(energy) / size;
       require(
          std::abs(energy) <= 1e-12 * size, "stiffness '", name, "': it resists ",
-         called[motion], " by ", share.str(),
+         (dimension == 3 ? in_space : in_plane)[motion], " by ", share.str(),
          " of its entries, without supports at most 1e-12 is allowed: are its rows in another "
          "order than its dofs, was it eliminated, has it less than 13 digits, or were "
          "supports left out of it (supports_left_out)?");
@@ -274,8 +296,8 @@ AssembledBody NodalStiffness::body() const
    body.grounded = supports_left_out;
    body.places = {Eigen::VectorXd(size), Eigen::VectorXd(size), {}, formulation};
    std::set<int> held(fixed.begin(), fixed.end());
-   Eigen::AlignedBox2d box;
-   for (const NodeDof &dof : dofs) { box.extend(places.at(dof.node)); }
+   Eigen::AlignedBox3d box;
+   for (const NodeDof &dof : dofs) { box.extend(place(dof.node)); }
    const double away = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff(),
                 extent = box.sizes().maxCoeff();
    require(extent == 0 || std::numeric_limits<double>::epsilon() * away <= 1e-8 * extent,
@@ -284,9 +306,11 @@ AssembledBody NodalStiffness::body() const
            " from one another: that leaves less than 8 digits of their distances, the origin "
            "must be nearer");
    const double near_axis = axis();
+   if (formulation == Formulation::space) { body.places.z.resize(size); }
    for (Index row = 0; row < size; ++row)
    {
       const Vector2d &place = places.at(dofs[row].node);
+      if (formulation == Formulation::space) { body.places.z[row] = z.at(dofs[row].node); }
       body.places.x[row] = place[0];
       body.places.y[row] = place[1];
       body.places.component.push_back(dofs[row].direction - 1);
@@ -363,9 +387,95 @@ void NodalStiffness::require_body_on_left(const ContactLine &line) const
       "round");
 }
 
+std::vector<NodalStiffness::Nodes> NodalStiffness::faces_on(const Nodes &nodes) const
+{
+   require(formulation == Formulation::space, "stiffness '", name, "': it is ",
+           cattaneo::name(formulation), ", which has lines, must be in space for a surface");
+   require(!faces.empty(), "stiffness '", name,
+           "': no elements are known, a surface must be given by its faces");
+   const std::set<int> among(nodes.begin(), nodes.end());
+   std::vector<Nodes> found;
+   for (const Nodes &face : faces)
+   {
+      if (std::all_of(face.begin(), face.end(), [&](int n) { return among.count(n) == 1; }))
+      {
+         found.push_back(face);
+      }
+   }
+   require(!found.empty(), "stiffness '", name,
+           "': no outer face of an element has all of its nodes among the ", nodes.size(),
+           " given, there must be one at least");
+   return found;
+}
+
+ContactSurface NodalStiffness::contact_surface(const Nodes &nodes) const
+{
+   return contact_surface(faces_on(nodes));
+}
+
+ContactSurface NodalStiffness::contact_surface(const std::vector<Nodes> &on) const
+{
+   validate();
+   require(formulation == Formulation::space, "stiffness '", name, "': it is ",
+           cattaneo::name(formulation), ", which has lines, must be in space for a surface");
+   const std::string where = "contact surface of '" + name + "'";
+   const std::map<NodeDof, int> all = rows();
+   const auto known = [&](int id)
+   {
+      require(places.count(id) == 1, "stiffness '", name, "': there is no node ", id);
+      SurfaceNode node;
+      node.position = place(id);
+      for (int c : {0, 1, 2})
+      {
+         const auto row = all.find({id, c + 1});
+         require(row != all.end(), where, ": direction ", c + 1, " of node ", id,
+                 " has no row: ", leave_free);
+         node.dofs[c] = row->second;
+      }
+      return node;
+   };
+   // What K couples with all nodes of a face and that lies off it is on the body's side.
+   const auto inside = [&](std::size_t f)
+   {
+      const Nodes &face = on[f];
+      Eigen::Vector3d middle(0, 0, 0), way(0, 0, 0);
+      for (int id : face) { middle += place(id) / static_cast<double>(face.size()); }
+      std::map<int, std::size_t> seen; // by how many nodes of the face
+      for (int id : face)
+      {
+         std::set<int> its;
+         for (Matrix::InnerIterator e(K, all.at({id, 1})); e; ++e)
+         {
+            its.insert(dofs[e.col()].node);
+         }
+         for (int other : its) { ++seen[other]; }
+      }
+      for (const auto &[other, times] : seen)
+      {
+         const bool own = std::count(face.begin(), face.end(), other) > 0;
+         if (times == face.size() && !own) { way += place(other) - middle; }
+      }
+      return way;
+   };
+   return surface_of(on, known, inside, where);
+}
+
+void NodalStiffness::add_surface_traction(const std::string &load, const Nodes &nodes,
+                                          const Eigen::Vector3d &traction)
+{
+   const ContactSurface surface = contact_surface(nodes);
+   Eigen::VectorXd &values = load_of(load, Control::force).values;
+   for (const SurfaceNode &node : surface.nodes)
+   {
+      for (int c : {0, 1, 2}) { values[node.dofs[c]] += node.weight * traction[c]; }
+   }
+}
+
 ContactLine NodalStiffness::contact_line(const Nodes &nodes, int order) const
 {
    validate();
+   require(formulation != Formulation::space, "stiffness '", name,
+           "': it is in space, where contact is on a surface (contact_surface())");
    const std::string where = "contact line of '" + name + "'";
    const std::vector<Nodes> elements = elements_on(nodes, order);
    const std::map<NodeDof, int> all = rows();
@@ -487,8 +597,13 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
    const double near_axis = axis();
    for (const auto &[node, place] : places)
    {
-      const bool on_axis = formulation == Formulation::axisymmetric && place[0] <= near_axis;
-      if ((on_axis || known.count({node, 1}) == 1) && known.count({node, 2}) == 1) { continue; }
+      const bool on_axis = formulation == Formulation::axisymmetric && place[0] <= near_axis,
+                 flat = formulation != Formulation::space;
+      if ((on_axis || known.count({node, 1}) == 1) && known.count({node, 2}) == 1 &&
+          (flat || known.count({node, 3}) == 1))
+      {
+         continue;
+      }
       supported.insert(owner.count(node) == 1 ? owner.at(node) : order.size());
    }
    const bool told = !supported.empty() && supported.count(order.size()) == 0;
@@ -520,7 +635,9 @@ NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
    }
    for (const auto &[node, of] : owner)
    {
-      if (of == group) { own.places[node] = places.at(node); }
+      if (of != group) { continue; }
+      own.places[node] = places.at(node);
+      if (formulation == Formulation::space) { own.z[node] = z.at(node); }
    }
    std::vector<Eigen::Triplet<double>> entries;
    for (int row : rows)
@@ -545,9 +662,10 @@ NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
    const auto is_own = [&](int node) { return own.places.count(node) == 1; };
    std::copy_if(on_springs.begin(), on_springs.end(), std::back_inserter(own.on_springs),
                 is_own);
-   std::copy_if(edges.begin(), edges.end(), std::back_inserter(own.edges),
-                [&](const Nodes &edge)
-                { return std::all_of(edge.begin(), edge.end(), is_own); });
+   const auto all_own = [&](const Nodes &side)
+   { return std::all_of(side.begin(), side.end(), is_own); };
+   std::copy_if(edges.begin(), edges.end(), std::back_inserter(own.edges), all_own);
+   std::copy_if(faces.begin(), faces.end(), std::back_inserter(own.faces), all_own);
    std::size_t smallest = 0;
    for (const auto &[set, nodes] : sets)
    {
@@ -575,9 +693,12 @@ NodalStiffness nodal_stiffness(const CondensedBody &body)
 {
    const ContactLine &line = body.line;
    require(line.formulation != Formulation::torsion,
-           "stiffness of a condensed body: it is of torsion, must be plane or axisymmetric");
-   const FrameChange back = FrameChange::of(line, body.held).inverse();
-   const Index n = line.size();
+           "stiffness of a condensed body: it is of torsion, must be plane, axisymmetric or in "
+           "space");
+   const FrameChange back = frames_of(body).inverse();
+   const Index n = body.nodes();
+   const int count = components(line.formulation);
+   const Eigen::MatrixX3d places = body.places();
    const Eigen::MatrixXd S = back.both(body.S);
    NodalStiffness result;
    result.name = body.name;
@@ -586,9 +707,10 @@ NodalStiffness nodal_stiffness(const CondensedBody &body)
    for (Index i = 0; i < n; ++i)
    {
       const auto node = static_cast<int>(i + 1);
-      result.places[node] = line.nodes[i].position;
+      result.places[node] = places.row(i).head(2);
+      if (count == 3) { result.z[node] = places(i, 2); }
       result.sets["CONTACT"].push_back(node);
-      for (int c : {0, 1})
+      for (int c = 0; c < count; ++c)
       {
          const Index row = i + c * n;
          if (S(row, row) == 0) { continue; }
@@ -596,12 +718,12 @@ NodalStiffness nodal_stiffness(const CondensedBody &body)
          result.dofs.push_back({node, c + 1});
       }
    }
-   result.supports_left_out =
-      body.free_motions.cols() < (line.formulation == Formulation::plane ? 3 : 1);
+   const int free = about_axis(line.formulation) ? 1 : 3 * (count - 1);
+   result.supports_left_out = body.free_motions.cols() < free;
    result.K = Eigen::MatrixXd(S(rows, rows)).sparseView();
    for (const LoadPattern &pattern : body.patterns)
    {
-      Eigen::VectorXd forces(2 * n);
+      Eigen::VectorXd forces(count * n);
       forces << pattern.q, pattern.p;
       const Eigen::VectorXd loads = -back.rows(forces);
       result.loads.push_back({pattern.name, Control::force, loads(rows)});

@@ -14,7 +14,7 @@ namespace cattaneo
 struct NodeDof
 {
    int node = 0;      ///< its number in that program
-   int direction = 1; ///< 1: x (r about an axis), 2: y (z)
+   int direction = 1; ///< 1: x (r about an axis), 2: y (z), 3 in space: z
 
    /// By node, then by direction.
    bool operator<(const NodeDof &other) const
@@ -27,7 +27,8 @@ struct NodeDof
     finite-element programs call them: what every reader returns, and what supports, loads and
     contact lines are named on. Public, for matrices from elsewhere too.
 
-    Forces are per unit thickness in the plane, of the whole circumference about an axis. Set
+    Forces are per unit thickness in the plane, of the whole circumference about an axis. In
+    space each node has three directions, a place (x, y, z), and contact is on faces. Set
     names are found whatever their capitals. Where nodes are asked for, nodes_of("TOP") or a
     list goes. What does not fit is an InputError that names the file, the node and the
     direction. */
@@ -44,7 +45,7 @@ public:
    using Sets = std::map<std::string, Nodes>;
 
    std::string name; ///< of the file; of a part, the set that is the part, or "body 1", …
-   Formulation formulation = Formulation::plane; ///< plane or axisymmetric
+   Formulation formulation = Formulation::plane; ///< plane, axisymmetric or space
    Matrix K;                                     ///< symmetric, both triangles
    std::vector<NodeDof> dofs;                    ///< of each row, each once
    Places places;                                ///< of each node: (x, y), or (r, z)
@@ -52,8 +53,12 @@ public:
    std::vector<int> fixed;                       ///< rows; sorted
    std::vector<BodyLoad> loads;                  ///< values by row
    /// Nodes of each outer edge of the body, along it with the body on the left. Empty if no
-   /// elements are known.
+   /// elements are known, and in space.
    std::vector<Nodes> edges;
+   std::map<int, double> z = {}; ///< in space: the third coordinate of each node
+   /// In space: nodes of each outer face of the body, in their order around it. Empty if no
+   /// elements are known.
+   std::vector<Nodes> faces = {};
    /// The program that wrote K left out rows of supports, so that K resists motions, or
    /// eliminated them: rows that hold nothing but their diagonal are fixed then
    /// (AssembledBody::eliminated()).
@@ -65,7 +70,8 @@ public:
    /// Its nodes; InputError with the names that there are.
    const Nodes &nodes_of(const std::string &set) const;
 
-   /// Holds a direction (1 or 2) of nodes. Rows that K has no more are held already.
+   /// Holds a direction (1 or 2, in space 1 to 3) of nodes. Rows that K has no more are held
+   /// already.
    void fix(const Nodes &nodes, int direction);
    /// Adds a force at each of the nodes to the load of that name, which is new or has force
    /// control.
@@ -77,6 +83,10 @@ public:
    /// Force per length (area, about an axis) on the elements that contact_line() finds.
    void add_traction(const std::string &load, const Nodes &nodes,
                      const Eigen::Vector2d &traction, int order = 0);
+
+   /// In space: force per area on the faces that contact_surface() finds.
+   void add_surface_traction(const std::string &load, const Nodes &nodes,
+                             const Eigen::Vector3d &traction);
 
    /// The load of that name, a new one of zeros if there is none; InputError if it has the
    /// other control.
@@ -106,6 +116,16 @@ public:
        MFEM. */
    ContactLine contact_line(const Nodes &nodes, int order = 0) const;
 
+   /** In space: the trace on the outer faces all of whose nodes are among the given ones.
+       InputError if no elements are known, or there is no such face. */
+   ContactSurface contact_surface(const Nodes &nodes) const;
+   /** The same on faces of three or four nodes, which need not be outer faces of elements that
+       are known. The side on which the body lies is told by K. */
+   ContactSurface contact_surface(const std::vector<Nodes> &on) const;
+
+   /// (x, y, z) of a node; z is 0 but in space.
+   Eigen::Vector3d place(int node) const;
+
    /// Number of each dof's row; InputError for a direction that is none, a second row of a dof,
    /// or a node without a place.
    std::map<NodeDof, int> rows() const;
@@ -116,6 +136,8 @@ private:
    /// One for each node, -1 if there is none and that is allowed.
    std::vector<int> rows_of(const Nodes &nodes, int direction, bool missing_allowed) const;
    double axis() const; ///< nodes at smaller r are on it
+   /// Outer faces of nodes, as contact_surface() finds them.
+   std::vector<Nodes> faces_on(const Nodes &nodes) const;
    /// Elements of a trace, as contact_line() finds them.
    std::vector<Nodes> elements_on(const Nodes &nodes, int order) const;
    /// InputError if K resists rigid motions.

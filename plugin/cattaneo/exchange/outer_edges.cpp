@@ -3,6 +3,7 @@
 #include <cattaneo/input_error.hpp>
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace cattaneo
 {
@@ -86,6 +87,41 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
       if (shared.size() == 1) { outer.push_back(shared.front()); }
    }
    return outer;
+}
+
+std::vector<NodalStiffness::Nodes>
+outer_faces(const std::vector<NodalStiffness::Nodes> &elements)
+{
+   using Faces = std::vector<std::vector<std::size_t>>;
+   const std::map<std::size_t, Faces> of = {
+      {4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}},
+      {5, {{0, 1, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}}},
+      {6, {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}},
+      {8,
+       {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}}};
+   std::map<NodalStiffness::Nodes, NodalStiffness::Nodes> once; // by sorted nodes
+   std::set<NodalStiffness::Nodes> twice;
+   for (std::size_t e = 0; e < elements.size(); ++e)
+   {
+      const auto found = of.find(elements[e].size());
+      require(found != of.end(), "element ", e, " has ", elements[e].size(),
+              " nodes, must have 4, 5, 6 or 8");
+      for (const std::vector<std::size_t> &corners : found->second)
+      {
+         NodalStiffness::Nodes face;
+         for (std::size_t corner : corners) { face.push_back(elements[e][corner]); }
+         NodalStiffness::Nodes sorted = face;
+         std::sort(sorted.begin(), sorted.end());
+         if (twice.count(sorted) > 0) { continue; }
+         const auto [at, is_new] = once.emplace(sorted, face);
+         if (is_new) { continue; }
+         once.erase(at);
+         twice.insert(std::move(sorted));
+      }
+   }
+   std::vector<NodalStiffness::Nodes> all;
+   for (auto &[sorted, face] : once) { all.push_back(std::move(face)); }
+   return all;
 }
 
 } // namespace cattaneo

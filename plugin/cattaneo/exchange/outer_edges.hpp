@@ -18,4 +18,13 @@ std::vector<NodalStiffness::Nodes>
 outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
             const NodalStiffness::Places &places, const std::vector<int> &numbers = {});
 
+/** Faces that one element alone has, nodes in their order around each: what
+    NodalStiffness::faces asks for. Elements by their corners: 4 nodes a tetrahedron, 5 a
+    pyramid (the apex last), 6 a wedge (one triangle, then the other), 8 a hexahedron (one side,
+    then the other), as ABAQUS, Gmsh and VTK number them.
+
+    InputError, with the number of the element in the list, for another number of nodes. */
+std::vector<NodalStiffness::Nodes>
+outer_faces(const std::vector<NodalStiffness::Nodes> &elements);
+
 } // namespace cattaneo

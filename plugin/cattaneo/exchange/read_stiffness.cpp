@@ -597,20 +597,38 @@ void read_dofs(const std::string &file, NodalStiffness &result)
       [&](const LineReader &in, std::string_view node, std::string_view direction)
    {
       const NodeDof dof{in.integer(node, "a node"), in.integer(direction, "a direction")};
-      require_plane(in, dof);
+      if (result.formulation != Formulation::space) { require_plane(in, dof); }
+      else
+      {
+         in.require(dof.direction >= 1 && dof.direction <= 3, "direction ", dof.direction,
+                    ", must be 1, 2 or 3");
+      }
       return dof;
    };
    each_line(
       [&](const LineReader &in, const std::vector<std::string_view> &fields)
       {
          if (is_word(fields[0])) { return; }
-         in.require(fields.size() == 4, "'", trimmed(in.line()),
-                    "', must be node, direction, x and y");
+         // The first row tells whether all are in space.
+         const bool first = result.dofs.empty();
+         if (first && fields.size() == 5) { result.formulation = Formulation::space; }
+         const bool in_space = result.formulation == Formulation::space;
+         in.require(fields.size() == (in_space ? 5 : 4), "'", trimmed(in.line()),
+                    "', must be node, direction, x and y",
+                    in_space ? ", and z as in the first row"
+                    : first  ? ", or node, direction, x, y and z"
+                             : "");
          const NodeDof dof = dof_at(in, fields[0], fields[1]);
          const Eigen::Vector2d place(in.number(fields[2], "x"), in.number(fields[3], "y"));
          const Eigen::Vector2d &known = result.places.emplace(dof.node, place).first->second;
-         in.require(known == place, "node ", dof.node, " is at ", place, ", and was at ", known,
-                    " before");
+         bool same = known == place;
+         if (in_space)
+         {
+            const double z = in.number(fields[4], "z");
+            same = same && result.z.emplace(dof.node, z).first->second == z;
+         }
+         in.require(same, "node ", dof.node, " is at ", place, ", and was at ", known,
+                    " before", in_space ? " (or at another z)" : "");
          result.dofs.push_back(dof);
       });
    require(static_cast<Eigen::Index>(result.dofs.size()) == result.K.rows(), "file '", file,
@@ -624,6 +642,8 @@ void read_dofs(const std::string &file, NodalStiffness &result)
          const bool force = word == "force";
          if (word == "axisymmetric" && fields.size() == 1)
          {
+            in.require(result.formulation != Formulation::space,
+                       "'axisymmetric', but its rows have x, y and z");
             result.formulation = Formulation::axisymmetric;
          }
          else if (word == "supports_left_out" && fields.size() == 1)
@@ -654,10 +674,22 @@ void read_dofs(const std::string &file, NodalStiffness &result)
                            in.number(fields[4], "a value"));
             }
          }
+         else if (word == "face" && (fields.size() == 4 || fields.size() == 5))
+         {
+            NodalStiffness::Nodes face;
+            for (std::size_t k = 1; k < fields.size(); ++k)
+            {
+               face.push_back(in.integer(fields[k], "a node"));
+               in.require(result.places.count(face.back()) == 1, "a face has node ",
+                          face.back(), ", which has no row");
+            }
+            result.faces.push_back(std::move(face));
+         }
          else
          {
             in.require(false, "'", trimmed(in.line()),
-                       "', must be axisymmetric, supports_left_out, set NAME nodes, fixed node "
+                       "', must be axisymmetric, supports_left_out, set NAME nodes, face "
+                       "nodes, fixed node "
                        "direction, force or displacement LOAD node direction value");
          }
       });

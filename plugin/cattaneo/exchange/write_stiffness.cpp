@@ -91,12 +91,20 @@ void require_npz(const std::string &file)
            "' must end with .npz");
 }
 
+/// InputError for a body in space.
+void require_flat(const std::string &file, const NodalStiffness &stiffness)
+{
+   require(stiffness.formulation != Formulation::space, "file '", file, "': the stiffness '",
+           stiffness.name, "' is in space, which write_matrix_market() alone writes");
+}
+
 } // namespace
 
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M)
 {
    require_npz(file);
+   require_flat(file, stiffness);
    stiffness.validate();
    require_forces(file, stiffness);
    const auto size = static_cast<Index>(stiffness.dofs.size()),
@@ -174,7 +182,8 @@ void write_matrix_market(const std::string &file, const NodalStiffness &stiffnes
    }
    if (stiffness.formulation == Formulation::axisymmetric) { dofs << "axisymmetric\n"; }
    if (stiffness.supports_left_out) { dofs << "supports_left_out\n"; }
-   dofs << "# node direction x y\n";
+   const bool in_space = stiffness.formulation == Formulation::space;
+   dofs << (in_space ? "# node direction x y z\n" : "# node direction x y\n");
    const auto called = [&](std::size_t row)
    {
       const NodeDof &dof = stiffness.dofs[row];
@@ -183,12 +192,20 @@ void write_matrix_market(const std::string &file, const NodalStiffness &stiffnes
    for (std::size_t row = 0; row < stiffness.dofs.size(); ++row)
    {
       const Eigen::Vector2d &place = stiffness.places.at(stiffness.dofs[row].node);
-      dofs << called(row) << ' ' << exact_text(place[0]) << ' ' << exact_text(place[1]) << '\n';
+      dofs << called(row) << ' ' << exact_text(place[0]) << ' ' << exact_text(place[1]);
+      if (in_space) { dofs << ' ' << exact_text(stiffness.z.at(stiffness.dofs[row].node)); }
+      dofs << '\n';
    }
    for (const auto &[set, nodes] : written_sets(stiffness))
    {
       dofs << "set " << set;
       for (int node : nodes) { dofs << ' ' << node; }
+      dofs << '\n';
+   }
+   for (const NodalStiffness::Nodes &face : stiffness.faces)
+   {
+      dofs << "face";
+      for (int node : face) { dofs << ' ' << node; }
       dofs << '\n';
    }
    for (int row : stiffness.fixed) { dofs << "fixed " << called(row) << '\n'; }
@@ -211,6 +228,7 @@ void write_matrix_market(const std::string &file, const NodalStiffness &stiffnes
 
 void write_abaqus(const std::string &file, const NodalStiffness &given)
 {
+   require_flat(file, given);
    given.validate();
    const NodalStiffness stiffness = numbered_from_one(given);
    require_forces(file, stiffness);
@@ -321,6 +339,7 @@ std::string wide(int number)
 
 void write_nastran(const std::string &file, const NodalStiffness &given)
 {
+   require_flat(file, given);
    given.validate();
    const NodalStiffness stiffness = numbered_from_one(given);
    require_forces(file, stiffness);

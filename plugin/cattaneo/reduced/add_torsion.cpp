@@ -12,14 +12,14 @@ namespace
 /// their radial ones, which are odd in r as well, without regard to frames.
 UnionRows twisting_rows(UnionRows rows, const std::vector<CondensedBody> &twisting)
 {
-   for (ContactRow &row : rows.rows) { row.slides = true; }
+   for (ContactRow &row : rows.rows) { row.slides[0] = true; }
    choose_dependents(twisting, rows.rows);
    for (ContactRow &row : rows.rows)
    {
       const auto &[b, node] = row.dependent[0];
       if (!holds(twisting[b], node, 0)) { continue; }
       // Nothing faces the node, or one alone that is held as well.
-      row.slides = false;
+      row.slides[0] = false;
       const NodeOfBody *other = row.partner();
       require(other ? holds(twisting[other->first], other->second, 0) : row.shares.size() == 1,
               "add torsion: the contact node at ", twisting[b].line.nodes[node].position,

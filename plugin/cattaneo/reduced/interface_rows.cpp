@@ -353,10 +353,10 @@ ContactRow RowsOfInterface::row(Index i) const
    ContactRow made;
    made.slave = {met.slave.body, k};
    made.tangent = met.mortar.tangent.row(i);
-   made.slides = !holds(slave_body(), k, 0) || !partner_holds(node, 0);
+   made.slides[0] = !holds(slave_body(), k, 0) || !partner_holds(node, 0);
    const auto on_axes = [](const LineNode &at)
    { return at.tangent.cwiseAbs().minCoeff() == 0; };
-   if (!made.slides && on_axes(met.slave.line.nodes[node]))
+   if (!made.slides[0] && on_axes(met.slave.line.nodes[node]))
    {
       // A plane of symmetry, if what it faces has the same one, is across the contact. The mean
       // of all normals that the row sees beside it need not be.
@@ -403,7 +403,7 @@ std::string RowsOfInterface::refusal(const ContactRow &row, Index i) const
              "must end before it, or the other side be the slave (slave: " +
              other_slave + ")";
    }
-   if (row.slides || met.master.body < 0 || given_.pairing) { return {}; }
+   if (row.slides[0] || met.master.body < 0 || given_.pairing) { return {}; }
    const int *other = faced(i, row.tangent);
    if (other && holds(bodies_[met.master.body], *other, 0)) { return {}; }
    return where +
@@ -552,9 +552,10 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
    for (const CondensedBody &body : bodies)
    {
       require(body.line.formulation == bodies[0].line.formulation &&
-                 body.line.formulation != Formulation::torsion,
+                 body.line.formulation != Formulation::torsion &&
+                 body.line.formulation != Formulation::space,
               "reduce: the bodies must be all plane or all axisymmetric (those of torsion are "
-              "added to a reduction of these)");
+              "added to a reduction of these, those in space are reduced by a pairing)");
    }
    // A node that several interfaces share is that of the first one. Ties come before all others:
    // where a tie and a contact meet nothing opens.

@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/products.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/interface_rows.hpp>
+#include <cattaneo/reduced/surfaces.hpp>
 #include <map>
 #include <numeric>
 
@@ -99,36 +100,6 @@ std::vector<Interface> paired_if_matching(const std::vector<CondensedBody> &bodi
    return interfaces;
 }
 
-/// What is left of a block in a problem, without gaps and friction.
-void take(Block block, ReducedProblem &problem)
-{
-   const Index n = block.S.rows() / 2;
-   problem.gap = problem.friction = Eigen::VectorXd::Zero(n);
-   problem.K = std::move(block.S);
-   problem.H = block.H;
-   problem.rigid_motions = block.motions;
-   for (int row : block.held)
-   {
-      problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
-      problem.held.push_back(row);
-   }
-   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
-   {
-      const auto column = static_cast<Index>(k);
-      problem.patterns[k].q = block.f.col(column).head(n);
-      problem.patterns[k].p = block.f.col(column).tail(n);
-   }
-   // Of mirror images tangential and normal displacements do not feel each other. What rounding
-   // and two meshes leave of it goes.
-   const Eigen::ArrayXd own = problem.K.diagonal().cwiseSqrt();
-   const auto none = [&](Index j)
-   { return (problem.K.col(j).tail(n).array().abs() <= 1e-10 * own[j] * own.tail(n)).all(); };
-   Index j = 0;
-   while (j < n && none(j)) { ++j; }
-   if (j == n) { problem.K.bottomLeftCorner(n, n).setZero(); }
-   join_coupling(problem);
-}
-
 } // namespace
 
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &given)
@@ -154,7 +125,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    result.union_ = block.way_back;
    result.rows_ = std::move(rows);
    const std::vector<InterfaceReport::Moved> moved = block.moved;
-   take(std::move(block), problem);
+   take(std::move(block), 2, problem);
    problem.weights = problem.arc_length = Eigen::VectorXd::Zero(n);
    problem.position.resize(n, 2);
    problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
@@ -189,6 +160,8 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 {
    require(body.line.formulation != Formulation::torsion,
            "reduce: the body is one of torsion, which is to be added to a reduction");
+   require(body.line.formulation != Formulation::space,
+           "reduce: the body is in space, its gaps must be given for each contact node");
    const Index n = body.line.size();
    for (int row : body.held)
    {
@@ -206,6 +179,15 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing)
 {
+   if (body1.line.formulation == Formulation::space &&
+       body2.line.formulation == Formulation::space)
+   {
+      std::vector<CondensedBody> both;
+      both.push_back(std::move(body1));
+      both.push_back(std::move(body2));
+      std::vector<ContactRow> rows = rows_of_pairs(both, pairing);
+      return reduce_surfaces(std::move(both), std::move(rows), pairing.gap);
+   }
    const Index n = body1.line.size();
    require(body1.line.formulation == body2.line.formulation &&
               body1.line.formulation != Formulation::torsion,

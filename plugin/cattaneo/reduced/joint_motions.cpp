@@ -11,14 +11,12 @@ using Eigen::MatrixXd;
 namespace
 {
 
-/// Rigid motions of the plane (or along the axis) about a point, of bodies' traces.
-MatrixXd about(const CondensedBody &body, const Eigen::Vector2d &centre, double size)
+/// Rigid motions about a point, of bodies' traces, rotations over a size.
+MatrixXd about(const CondensedBody &body, const Eigen::Vector3d &centre, double size)
 {
-   MatrixXd R = body.rigid_motions();
-   if (R.cols() == 3)
-   {
-      R.col(2) = (R.col(2) + centre[1] * R.col(0) - centre[0] * R.col(1)) / size;
-   }
+   MatrixXd R = body.rigid_motions(centre);
+   const Index translations = dimension(body.line.formulation);
+   if (R.cols() > 1) { R.rightCols(R.cols() - translations) /= size; }
    return R;
 }
 
@@ -26,7 +24,7 @@ MatrixXd about(const CondensedBody &body, const Eigen::Vector2d &centre, double 
     motions are rigid motions of the whole, so that each direction of these is either free or
     not: values are 0 or 1 (about hinges, to how far apart they are). */
 MatrixXd common_coefficients(const std::vector<CondensedBody> &bodies,
-                             const std::vector<int> &group, const Eigen::Vector2d &centre,
+                             const std::vector<int> &group, const Eigen::Vector3d &centre,
                              double size)
 {
    MatrixXd resisted;
@@ -53,10 +51,11 @@ MatrixXd common_coefficients(const std::vector<CondensedBody> &bodies,
 MatrixXd common_motions(const std::vector<CondensedBody> &bodies, const std::vector<int> &group,
                         const RelativeDisplacement &map)
 {
-   Eigen::AlignedBox2d box;
+   Eigen::AlignedBox3d box;
    for (int b : group)
    {
-      for (const LineNode &node : bodies[b].line.nodes) { box.extend(node.position); }
+      const Eigen::MatrixX3d places = bodies[b].places();
+      for (Index i = 0; i < places.rows(); ++i) { box.extend(Eigen::Vector3d(places.row(i))); }
    }
    const double size = box.diagonal().norm() > 0 ? box.diagonal().norm() : 1;
    const MatrixXd c = common_coefficients(bodies, group, box.center(), size);

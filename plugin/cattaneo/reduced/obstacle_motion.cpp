@@ -85,6 +85,8 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
 VectorXd Reduction::displaced(const std::string &where,
                               const std::vector<ObstacleMotion> &motions) const
 {
+   require(bodies[0].line.formulation != Formulation::space, where,
+           ": the body is in space, where obstacles rest");
    const Index n = problem.nodes(), m = problem.slips();
    VectorXd d = VectorXd::Zero(m + n);
    for (const ObstacleMotion &motion : motions)

@@ -1,4 +1,5 @@
 #include <cattaneo/algebra/root.hpp>
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cmath>
@@ -9,6 +10,7 @@ namespace cattaneo
 
 using Eigen::Index;
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace
@@ -29,6 +31,39 @@ VectorXd gaps(const InterfaceReport &nodes, Distance distance)
               x[1], ") does not face the obstacle, the contact must end before it");
    }
    return all;
+}
+
+/// The same of the nodes of a surface.
+template <class Distance>
+VectorXd gaps(const ContactSurface &surface, Distance distance)
+{
+   VectorXd all(surface.size());
+   for (Index i = 0; i < surface.size(); ++i)
+   {
+      const SurfaceNode &node = surface.nodes[i];
+      all[i] = distance(node.position, Vector3d(-node.normal()));
+      require(std::isfinite(all[i]), "obstacle: the node at ",
+              place_text(node.position, Formulation::space),
+              " does not face the obstacle, the contact must end before it");
+   }
+   return all;
+}
+
+void require_radius(double radius)
+{
+   require(radius != 0 && std::isfinite(radius), "obstacle: its radius is ", radius,
+           ", must not be zero (a hole's is negative)");
+}
+
+/// How far a disc or a sphere is from a place on the way along `looks`, seen from its centre
+/// the place is at e: |e + g looks| = |radius|, of what is solid the side towards the body.
+template <class Vector>
+double to_ball(const Vector &e, const Vector &looks, double radius)
+{
+   const double along = e.dot(looks), left = along * along - e.squaredNorm() + radius * radius;
+   // Without the difference of large numbers where the node is nearly on it.
+   const double root = std::sqrt(left), near = e.squaredNorm() - radius * radius;
+   return radius > 0 ? near / (root - along) : -near / (root + along);
 }
 
 /// The sine of the angle between what a node looks along and a straight obstacle from which on
@@ -100,19 +135,31 @@ VectorXd gaps_to_polyline(const InterfaceReport &nodes, const std::vector<Vector
 
 VectorXd gaps_to_circle(const InterfaceReport &nodes, const Vector2d &centre, double radius)
 {
-   require(radius != 0 && std::isfinite(radius), "obstacle: its radius is ", radius,
-           ", must not be zero (a hole's is negative)");
-   return gaps(nodes,
-               [&](const Vector2d &x, const Vector2d &looks)
+   require_radius(radius);
+   return gaps(nodes, [&](const Vector2d &x, const Vector2d &looks)
+               { return to_ball(Vector2d(x - centre), looks, radius); });
+}
+
+VectorXd gaps_to_plane(const ContactSurface &surface, const Vector3d &point,
+                       const Vector3d &normal)
+{
+   require(point.allFinite() && normal.allFinite() && normal.norm() > 0,
+           "obstacle: a plane has no finite point or no normal, must have both");
+   const Vector3d across = normal.normalized();
+   return gaps(surface,
+               [&](const Vector3d &x, const Vector3d &looks)
                {
-                  // |x + g looks - centre| = |radius|; of a disc the side towards the body.
-                  const Vector2d e = x - centre;
-                  const double along = e.dot(looks),
-                               left = along * along - e.squaredNorm() + radius * radius;
-                  // Without the difference of large numbers where the node is nearly on it.
-                  const double root = std::sqrt(left), near = e.squaredNorm() - radius * radius;
-                  return radius > 0 ? near / (root - along) : -near / (root + along);
+                  const double slope = across.dot(looks);
+                  return std::abs(slope) <= least_sine ? std::nan("")
+                                                       : across.dot(point - x) / slope;
                });
+}
+
+VectorXd gaps_to_sphere(const ContactSurface &surface, const Vector3d &centre, double radius)
+{
+   require_radius(radius);
+   return gaps(surface, [&](const Vector3d &x, const Vector3d &looks)
+               { return to_ball(Vector3d(x - centre), looks, radius); });
 }
 
 VectorXd gaps_to_curve(const InterfaceReport &nodes,

@@ -23,6 +23,14 @@ Eigen::VectorXd gaps_to_polyline(const InterfaceReport &nodes,
 Eigen::VectorXd gaps_to_circle(const InterfaceReport &nodes, const Eigen::Vector2d &centre,
                                double radius);
 
+/// In space a plane through a point; `normal` of any length and sign. A node that looks along
+/// it faces nothing.
+Eigen::VectorXd gaps_to_plane(const ContactSurface &surface, const Eigen::Vector3d &point,
+                              const Eigen::Vector3d &normal);
+/// In space a sphere, or with a negative radius a hollow of that radius.
+Eigen::VectorXd gaps_to_sphere(const ContactSurface &surface, const Eigen::Vector3d &centre,
+                               double radius);
+
 /// The curve y = height(x), whichever of its sides is the obstacle's: the first point of it
 /// that is met on the way from a node, outwards or inwards in steps of the nodes' distance.
 Eigen::VectorXd gaps_to_curve(const InterfaceReport &nodes,

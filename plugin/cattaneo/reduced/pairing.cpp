@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/facing.hpp>
 #include <cattaneo/reduced/pairing.hpp>
@@ -46,9 +47,40 @@ struct Matches
    double offset = 0;   ///< the largest along the tangent, in distances of nodes
 };
 
-Matches match(const ContactLine &line1, const ContactLine &line2, double tolerance)
+/// What pairing asks of the nodes of a line or a surface.
+struct PairedSide
 {
-   const Eigen::Index n1 = line1.size(), n2 = line2.size();
+   Eigen::Matrix3Xd place, normal;
+   Eigen::VectorXd spacing;
+};
+
+PairedSide side_of(const ContactLine &line)
+{
+   PairedSide side{Eigen::Matrix3Xd::Zero(3, line.size()),
+                   Eigen::Matrix3Xd::Zero(3, line.size()), line.each(&LineNode::spacing)};
+   for (Eigen::Index i = 0; i < line.size(); ++i)
+   {
+      side.place.col(i).head(2) = line.nodes[i].position;
+      side.normal.col(i).head(2) = line.nodes[i].normal();
+   }
+   return side;
+}
+
+PairedSide side_of(const ContactSurface &surface)
+{
+   PairedSide side{surface.positions().transpose(), Eigen::Matrix3Xd(3, surface.size()),
+                   Eigen::VectorXd(surface.size())};
+   for (Eigen::Index i = 0; i < surface.size(); ++i)
+   {
+      side.normal.col(i) = surface.nodes[i].normal();
+      side.spacing[i] = surface.nodes[i].spacing;
+   }
+   return side;
+}
+
+Matches match(const PairedSide &side1, const PairedSide &side2, double tolerance)
+{
+   const Eigen::Index n1 = side1.place.cols(), n2 = side2.place.cols();
    Matches found{std::vector<int>(n1, -1), std::vector<bool>(n1, false),
                  std::vector<bool>(n2, false), n1 == n2};
    for (Eigen::Index i = 0; i < n1; ++i)
@@ -57,19 +89,19 @@ Matches match(const ContactLine &line1, const ContactLine &line2, double toleran
       Eigen::Index partner = -1;
       for (Eigen::Index j = 0; j < n2; ++j)
       {
-         const LineNode &one = line1.nodes[i], &other = line2.nodes[j];
-         const Eigen::Vector2d apart = one.position - other.position;
+         const Eigen::Vector3d apart = side1.place.col(i) - side2.place.col(j);
          const double distance = apart.squaredNorm();
          if (distance >= nearest) { continue; }
-         const Eigen::Vector2d along = one.tangent - other.tangent;
-         const double square = along.squaredNorm(); // 4 for exactly opposite lines
-         const double offset = apart.dot(along);    // times the length of `along`
-         const double spacing = std::min(one.spacing, other.spacing);
-         const double allowed = tolerance * spacing;
+         const Eigen::Vector3d across = side1.normal.col(i) - side2.normal.col(j);
+         const double square = across.squaredNorm(); // 4 for exactly opposite sides
          found.facing = found.facing || square >= 2;
-         if (square < 2 || offset * offset > allowed * allowed * square) { continue; }
+         if (square < 2) { continue; }
+         // What is left of the way without its part along the mean normal.
+         const double offset = (apart - apart.dot(across) / square * across).norm();
+         const double spacing = std::min(side1.spacing[i], side2.spacing[j]);
+         if (offset > tolerance * spacing) { continue; }
          nearest = distance;
-         offset_of_nearest = std::abs(offset) / (std::sqrt(square) * spacing);
+         offset_of_nearest = offset / spacing;
          partner = j;
       }
       if (partner < 0 || found.matched2[partner])
@@ -82,6 +114,20 @@ Matches match(const ContactLine &line1, const ContactLine &line2, double toleran
       found.offset = std::max(found.offset, offset_of_nearest);
    }
    return found;
+}
+
+Matches match(const ContactLine &line1, const ContactLine &line2, double tolerance)
+{
+   return match(side_of(line1), side_of(line2), tolerance);
+}
+
+/// How many nodes have no partner, and the first of them.
+std::string without_partner(const ContactSurface &surface, const std::vector<bool> &matched)
+{
+   const auto first = std::find(matched.begin(), matched.end(), false) - matched.begin();
+   if (first == surface.size()) { return "none"; }
+   return std::to_string(std::count(matched.begin(), matched.end(), false)) +
+          ", the first at " + place_text(surface.nodes[first].position, Formulation::space);
 }
 
 /// What would pair the lines, and where they are.
@@ -222,6 +268,27 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
         << " nodes): " << listed(line1, found.matched1) << "; of body 2 (" << line2.size()
         << " nodes): " << listed(line2, found.matched2) << "; " << advice(line1, line2);
    throw InputError(text.str());
+}
+
+Pairing pair_surfaces(const ContactSurface &surface1, const ContactSurface &surface2,
+                      double tolerance)
+{
+   const Matches found = match(side_of(surface1), side_of(surface2), tolerance);
+   require(found.complete, "pairing: contact nodes without a partner within ", tolerance,
+           " distances of nodes: of body 1 (", surface1.size(),
+           " nodes): ", without_partner(surface1, found.matched1), "; of body 2 (",
+           surface2.size(), " nodes): ", without_partner(surface2, found.matched2),
+           found.facing ? "" : "; the surfaces do not face each other anywhere");
+   Pairing made{found.partner, Eigen::VectorXd(surface1.size())};
+   for (Eigen::Index i = 0; i < surface1.size(); ++i)
+   {
+      const SurfaceNode &one = surface1.nodes[i], &other = surface2.nodes[found.partner[i]];
+      const Eigen::Vector3d normal = (one.normal() - other.normal()).normalized();
+      const double gap = (one.position - other.position).dot(normal);
+      const bool round_off = std::abs(gap) < 1e-9 * std::min(one.spacing, other.spacing);
+      made.gap[i] = round_off ? 0 : gap;
+   }
+   return made;
 }
 
 } // namespace cattaneo

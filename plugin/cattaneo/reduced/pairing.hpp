@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/condense/contact_line.hpp>
+#include <cattaneo/condense/contact_surface.hpp>
 #include <optional>
 
 namespace cattaneo
@@ -26,9 +27,13 @@ LineNode mean_frame(LineNode node, const LineNode &other);
     of coordinates, and zero. InputError unless every node of both lines has one partner, with
     unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
-/** The same; nothing unless every node has its partner, and the elements of both lines are the
-    same ones between them (differing_element()). Forces on nodes that coincide are not those of
-    one traction where elements or orders differ. */
+/** The same of the nodes of two surfaces, by their offset across the mean normal of both. Faces
+    may differ, as diagonals of triangles do. */
+Pairing pair_surfaces(const ContactSurface &surface1, const ContactSurface &surface2,
+                      double tolerance = 1e-6);
+/** As pair_lines(); nothing unless every node has its partner, and the elements of both lines
+   are the same ones between them (differing_element()). Forces on nodes that coincide are not
+   those of one traction where elements or orders differ. */
 std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
                                       double tolerance = 1e-6);
 

@@ -339,9 +339,11 @@ void ReducedProblem::validate() const
            "reduced problem: position is ", position.rows(), "×", position.cols(), ", must be ",
            n, "×2 or ", n, "×3");
    require(position.allFinite(), "reduced problem: position has an entry that is not finite");
-   require(dofs.size() == 0 || (dofs.rows() == n && dofs.cols() % 2 == 0),
+   const bool in_space = position.cols() == 3;
+   require(dofs.size() == 0 || (dofs.rows() == n && (dofs.cols() % 2 == 0 ||
+                                                     (in_space && dofs.cols() % 3 == 0))),
            "reduced problem: dofs is ", dofs.rows(), "×", dofs.cols(), ", must have ", n,
-           " rows and two columns for each body");
+           " rows and two columns for each body", in_space ? ", in space three" : "");
    for (const Eigen::Index node : rim)
    {
       require(node >= 0 && node < n, "reduced problem: node ", node,

@@ -17,6 +17,15 @@ Eigen::VectorXd Reduction::recover(CondensedBody &body, const Eigen::VectorXd &u
    return field;
 }
 
+Eigen::VectorXd Reduction::without_torsion(const Eigen::VectorXd &u) const
+{
+   const Eigen::Index n = problem.nodes();
+   if (torsion.empty()) { return u; }
+   Eigen::VectorXd rest(2 * n);
+   rest << u.head(n), u.tail(n);
+   return rest;
+}
+
 Eigen::VectorXd Reduction::displacement(int b, const Eigen::VectorXd &v,
                                         const Eigen::VectorXd &w,
                                         const Eigen::VectorXd &multipliers)
@@ -24,17 +33,16 @@ Eigen::VectorXd Reduction::displacement(int b, const Eigen::VectorXd &v,
    const Eigen::Index n = problem.nodes();
    require(b >= 0 && b < static_cast<int>(bodies.size()), "displacement: body ", b,
            ", must be from 0 to ", bodies.size() - 1);
-   const Eigen::Index tangential = torsion.empty() ? n : 2 * n;
+   const Eigen::Index tangential = problem.slips();
    require(v.size() == tangential && w.size() == n, "displacement: ", v.size(),
            " tangential and ", w.size(), " normal displacements, must be ", tangential, " and ",
            n);
    require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
            "displacement: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size());
-   Eigen::VectorXd relative(tangential + n), u(2 * n);
+   Eigen::VectorXd relative(tangential + n);
    relative << v, w;
-   const Eigen::VectorXd all = moved(relative, multipliers);
-   u << all.head(n), all.tail(n);
+   const Eigen::VectorXd all = moved(relative, multipliers), u = without_torsion(all);
    const Eigen::VectorXd loads = acting(all, multipliers);
    return recover(bodies[b], union_->own(bodies, b, u, loads), pattern_[b], loads);
 }
@@ -44,11 +52,10 @@ Eigen::VectorXd Reduction::tied_forces(const Eigen::VectorXd &v, const Eigen::Ve
 {
    if (!union_) { return {}; }
    const Eigen::Index n = problem.nodes();
-   Eigen::VectorXd relative(v.size() + n), u(2 * n);
+   Eigen::VectorXd relative(v.size() + n);
    relative << v, w;
    const Eigen::VectorXd all = moved(relative, multipliers);
-   u << all.head(n), all.tail(n);
-   return union_->tied(u, acting(all, multipliers));
+   return union_->tied(without_torsion(all), acting(all, multipliers));
 }
 
 Eigen::VectorXd Reduction::tied_twisting(const Eigen::VectorXd &v,

@@ -11,6 +11,7 @@ namespace cattaneo
 
 struct Interface;
 struct UnionRows;
+struct ContactRow;
 
 /// What an interface came to.
 struct InterfaceReport
@@ -22,9 +23,14 @@ struct InterfaceReport
    bool tied = false;      ///< its nodes are none of the problem
    /// The nodes are those of Interface::second: forces on the first body are the opposite.
    bool of_second = false;
-   Eigen::MatrixX2d position; ///< n × 2, of the nodes
-   Eigen::MatrixX2d outline;  ///< n × 2, ContactLine::outline: where gaps are measured from
-   Eigen::MatrixX2d tangent;  ///< n × 2, of their frames: unit vectors
+   /// n × 2, of the nodes; of surfaces ReducedProblem::position has them, and this and all of
+   /// lines below is empty.
+   Eigen::MatrixX2d position;
+   Eigen::MatrixX2d outline; ///< n × 2, ContactLine::outline: where gaps are measured from
+   Eigen::MatrixX2d tangent; ///< n × 2, of their frames: unit vectors
+   /// In space n × 9, of the nodes: the first tangent, the second one, the normal into the body
+   /// that has them.
+   Eigen::MatrixXd frames = {};
    /// n × 2 each: where the nodes' forces act on the body that has the nodes, and on what faces
    /// it. The first is the node's own place but on an element that is faced in part; the second
    /// lies across a gap.
@@ -161,13 +167,13 @@ public:
                                  const Eigen::VectorXd &multipliers) const;
 
    /** What contact nodes and ties put on body `b`: forces in x and y (r and z) on the nodes of
-       its line, n × 2.
+       its line, n × 2; in space forces in x, y and z on those of its surface, n × 3.
        @param q     tangential forces of the contact nodes; none without friction
        @param p     normal forces of the contact nodes
        @param tied  of tied_forces(); none where nothing is tied
        InputError if there is no such body, or for other sizes. */
-   Eigen::MatrixX2d contact_forces(int b, const Eigen::VectorXd &q, const Eigen::VectorXd &p,
-                                   const Eigen::VectorXd &tied = {}) const;
+   Eigen::MatrixXd contact_forces(int b, const Eigen::VectorXd &q, const Eigen::VectorXd &p,
+                                  const Eigen::VectorXd &tied = {}) const;
 
    /** What contact nodes and ties put on body `b` around the axis: torques on the nodes of its
        line.
@@ -208,9 +214,13 @@ public:
 private:
    friend Reduction reduce(std::vector<CondensedBody> bodies,
                            const std::vector<Interface> &interfaces);
+   friend Reduction reduce_surfaces(std::vector<CondensedBody> bodies,
+                                    std::vector<ContactRow> rows, const Eigen::VectorXd &gap);
    /// With the forces of shanks in the place of their pretensions, for displacements {v; w} of
    /// which the obstacle's are a part.
    Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;
+   /// {v; w} of those that are not circumferential.
+   Eigen::VectorXd without_torsion(const Eigen::VectorXd &u) const;
    Eigen::VectorXd recover(CondensedBody &body, const Eigen::VectorXd &u,
                            const std::vector<int> &patterns,
                            const Eigen::VectorXd &multipliers);
@@ -239,6 +249,13 @@ private:
    };
    std::vector<Shank> shanks_; ///< each of the problem with those before it
 };
+
+/** One body in space against a rigid obstacle; the initial gap of each of its contact nodes,
+   see gaps_to_plane() and gaps_to_sphere(). First tangents of all nodes, second ones, normals;
+    ReducedProblem::dofs has three columns a body.
+    InputError for another number of gaps, one that is not finite, or if a normal component is
+    held. */
+Reduction reduce(CondensedBody body, const Eigen::VectorXd &gap);
 
 /// One body against a rigid obstacle; gap as a function of the contact nodes' coordinates.
 /// Tangential components that the body holds are ReducedProblem::held; InputError if a normal

@@ -10,7 +10,6 @@ namespace cattaneo
 {
 
 using Eigen::Index;
-using Eigen::Matrix2d;
 
 namespace
 {
@@ -37,13 +36,22 @@ RelativeDisplacement::Matrix matrix(Index rows, const std::vector<Sum> &sums)
    return made;
 }
 
+/// A block of a node.
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
 /// {v; w} of a contact node by those of a body's node: rows and columns tangential, normal.
-Matrix2d turned(const ContactRow &row, const TraceShare &share, const Matrix2d &directions)
+Small turned(const ContactRow &row, const TraceShare &share, const CondensedBody &body)
 {
+   const Small directions = body.directions(share.of.second);
+   if (directions.rows() == 3)
+   {
+      const Eigen::Vector3d weight(share.x, share.y, share.z);
+      return row.axes * weight.asDiagonal() * directions;
+   }
    const Eigen::Vector2d &t = row.tangent, n(-t[1], t[0]), weight(share.x, share.y),
                          v = weight.cwiseProduct(directions.col(0)),
                          w = weight.cwiseProduct(directions.col(1));
-   Matrix2d block;
+   Small block(2, 2);
    block << t.dot(v), t.dot(w), n.dot(v), n.dot(w);
    return block;
 }
@@ -52,7 +60,7 @@ Matrix2d turned(const ContactRow &row, const TraceShare &share, const Matrix2d &
 
 bool holds(const CondensedBody &body, int node, int component)
 {
-   const auto row = static_cast<int>(node + component * body.line.size());
+   const auto row = static_cast<int>(node + component * body.nodes());
    return std::binary_search(body.held.begin(), body.held.end(), row);
 }
 
@@ -64,7 +72,11 @@ const NodeOfBody *ContactRow::partner() const
    for (int k : {0, 1})
    {
       const double whole = k == other ? -1 : 1;
-      if (std::abs(shares[k].x - whole) > same || std::abs(shares[k].y - whole) > same)
+      const TraceShare &share = shares[k];
+      // Lines have no z.
+      const bool has_z = share.z != 0;
+      if (std::abs(share.x - whole) > same || std::abs(share.y - whole) > same ||
+          (has_z && std::abs(share.z - whole) > same))
       {
          return nullptr;
       }
@@ -83,7 +95,7 @@ void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<Con
    { return row.partner() && slaves.count(*row.partner()) == 0; };
    for (ContactRow &row : rows)
    {
-      row.dependent = {row.slave, row.slave};
+      row.dependent = {row.slave, row.slave, row.slave};
       if (!has_choice(row)) { taken.insert(row.slave); }
    }
    for (ContactRow &row : rows)
@@ -95,7 +107,7 @@ void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<Con
       const auto stiffness = [&](const NodeOfBody &at, int c)
       {
          const CondensedBody &body = bodies[at.first];
-         return body.S.diagonal()[at.second + c * body.line.size()];
+         return body.S.diagonal()[at.second + c * body.nodes()];
       };
       double own = 0, other = 0;
       bool any_held = false;
@@ -116,7 +128,7 @@ void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<Con
          }
          if (taken_already || own > much * other) { row.dependent[c] = partner; }
       }
-      taken.insert(row.dependent.begin(), row.dependent.end());
+      taken.insert(row.dependent.begin(), row.dependent.begin() + components);
    }
 }
 
@@ -142,7 +154,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
    const auto dof = [&](const NodeOfBody &at, int component)
    {
       return component < components
-                ? number[at.first][at.second + component * bodies[at.first].line.size()]
+                ? number[at.first][at.second + component * bodies[at.first].nodes()]
                 : -1;
    };
    // Numbers in u, -1: does not slide.
@@ -150,7 +162,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
    place.assign(components * n, -1);
    for (int row = 0; row < components * n; ++row)
    {
-      if (row < n && !rows[row].slides) { continue; }
+      if (row < tangents() * n && !rows[row % n].slides[row / n]) { continue; }
       place[row] = static_cast<int>(sliding.size());
       sliding.push_back(row);
    }
@@ -160,7 +172,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
    std::vector<int> row_of(size, -1); // the contact node that determines a component of U
    for (int i = 0; i < n; ++i)
    {
-      for (int component : {0, 1})
+      for (int component = 0; component < components; ++component)
       {
          const int own = dof(rows[i].dependent[component], component);
          if (own >= 0) { row_of[own] = i; }
@@ -180,23 +192,20 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       if (made[i]) { return; }
       made[i] = true;
       const ContactRow &row = rows[i];
-      Matrix2d own = Matrix2d::Zero(); // columns: of the dependent components
-      std::array<Sum, 2> rest;
+      Small own = Small::Zero(components, components); // columns: of the dependent components
+      std::array<Sum, 3> rest;
       for (const TraceShare &share : row.shares)
       {
-         Matrix2d block = share.x * Matrix2d::Identity();
-         if (components == 2)
-         {
-            block = turned(row, share, bodies[share.of.first].directions(share.of.second));
-         }
-         for (int b : {0, 1})
+         Small block = Small::Constant(1, 1, share.x);
+         if (components > 1) { block = turned(row, share, bodies[share.of.first]); }
+         for (int b = 0; b < components; ++b)
          {
             const bool is_own = share.of == row.dependent[b];
             if (is_own) { own.col(b) += block.col(b); }
             const int column = dof(share.of, b);
             if (column < 0) { continue; }
             if (!is_own && row_of[column] >= 0) { make(row_of[column]); }
-            for (int a : {0, 1})
+            for (int a = 0; a < components; ++a)
             {
                if (relative(i, a) < 0 || block(a, b) == 0) { continue; }
                seen[relative(i, a)][column] += block(a, b);
@@ -204,21 +213,27 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
             }
          }
       }
-      for (int a : {0, 1})
+      for (int a = 0; a < components; ++a)
       {
          if (relative(i, a) >= 0) { rest[a][relative(i, a)] = 1; }
       }
-      if (!row.slides) // it moves across what is held alone
+      for (int a = 0; a < tangents(); ++a)
       {
-         own(0, 0) = 1;
-         own(0, 1) = own(1, 0) = 0;
+         if (row.slides[a]) { continue; }
+         // It moves across what is held alone.
+         own.row(a).setZero();
+         own.col(a).setZero();
+         own(a, a) = 1;
       }
-      const Matrix2d inverse = own.inverse();
-      for (int b : {0, 1})
+      const Small inverse = own.inverse();
+      for (int b = 0; b < components; ++b)
       {
          const int column = dof(row.dependent[b], b);
          if (column < 0) { continue; }
-         for (int a : {0, 1}) { add(displacement[column], rest[a], inverse(b, a)); }
+         for (int a = 0; a < components; ++a)
+         {
+            add(displacement[column], rest[a], inverse(b, a));
+         }
       }
    };
    for (int i = 0; i < n; ++i) { make(i); }

@@ -5,38 +5,56 @@ namespace cattaneo
 {
 
 using Eigen::Index;
-using Eigen::MatrixX2d;
-using Eigen::Vector2d;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixX2d Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
-                                    const VectorXd &tied) const
+MatrixXd Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
+                                   const VectorXd &tied) const
 {
    require(b >= 0 && b < static_cast<int>(bodies.size()), "contact forces: body ", b,
            ", must be from 0 to ", bodies.size() - 1);
    const Index n = problem.nodes();
-   require((q.size() == 0 || q.size() >= n) && p.size() == n, "contact forces: ", q.size(),
-           " tangential and ", p.size(), " normal forces, must be ", n, " each");
-   MatrixX2d forces = MatrixX2d::Zero(bodies[b].line.size(), 2);
-   const auto force = [](const Vector2d &t, double along, double across)
-   { return Vector2d(along * t[0] - across * t[1], along * t[1] + across * t[0]); };
-   const auto slip = [&](Index i) { return q.size() == 0 ? 0.0 : q[i]; };
-   const auto add = [&](int row, double along, double across)
+   const int d = dimension(bodies[b].line.formulation);
+   // With torsion the circumferential ones follow, which are none along the line.
+   const Index tangential = (d - 1) * n;
+   require((q.size() == 0 || q.size() >= tangential) && p.size() == n,
+           "contact forces: ", q.size(), " tangential and ", p.size(),
+           " normal forces, must be ", tangential, " and ", n);
+   MatrixXd forces = MatrixXd::Zero(bodies[b].nodes(), d);
+   // A column of forces {q; p} in the frame of a row.
+   const auto add = [&](int row, const VectorXd &in_frame)
    {
       const ContactRow &of = rows_->rows[row];
-      const Vector2d its = force(of.tangent, along, across);
+      Eigen::Vector3d its(0, 0, 0);
+      if (d == 3) { its = of.axes.transpose() * in_frame; }
+      else
+      {
+         const Eigen::Vector2d &t = of.tangent;
+         its[0] = in_frame[0] * t[0] - in_frame[1] * t[1];
+         its[1] = in_frame[0] * t[1] + in_frame[1] * t[0];
+      }
       for (const TraceShare &share : of.shares)
       {
          if (share.of.first != b) { continue; }
-         forces(share.of.second, 0) += share.x * its[0];
-         forces(share.of.second, 1) += share.y * its[1];
+         const std::array<double, 3> part = {share.x, share.y, share.z};
+         for (int c = 0; c < d; ++c) { forces(share.of.second, c) += part[c] * its[c]; }
       }
    };
    const auto ties = static_cast<Index>(rows_->tied.size());
-   require(ties == 0 || tied.size() == 2 * ties, "contact forces: ", tied.size(),
-           " forces of tied nodes, must be ", 2 * ties);
-   for (Index i = 0; i < n; ++i) { add(rows_->free[i], slip(i), p[i]); }
-   for (Index i = 0; i < ties; ++i) { add(rows_->tied[i], tied[i], tied[ties + i]); }
+   require(ties == 0 || tied.size() == d * ties, "contact forces: ", tied.size(),
+           " forces of tied nodes, must be ", d * ties);
+   VectorXd in_frame(d);
+   for (Index i = 0; i < n; ++i)
+   {
+      for (int k = 0; k + 1 < d; ++k) { in_frame[k] = q.size() == 0 ? 0.0 : q[k * n + i]; }
+      in_frame[d - 1] = p[i];
+      add(rows_->free[i], in_frame);
+   }
+   for (Index i = 0; i < ties; ++i)
+   {
+      for (int k = 0; k < d; ++k) { in_frame[k] = tied[k * ties + i]; }
+      add(rows_->tied[i], in_frame);
+   }
    return forces;
 }
 

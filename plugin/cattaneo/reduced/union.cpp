@@ -455,4 +455,33 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
    return block;
 }
 
+void take(Block block, int components, ReducedProblem &problem)
+{
+   const Index n = block.S.rows() / components, m = block.S.rows() - n;
+   problem.gap = problem.friction = Eigen::VectorXd::Zero(n);
+   problem.K = std::move(block.S);
+   problem.H = block.H;
+   problem.rigid_motions = block.motions;
+   for (int row : block.held)
+   {
+      problem.K(row, row) = problem.K(m + row % n, m + row % n); // any stiffness would do
+      problem.held.push_back(row);
+   }
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const auto column = static_cast<Index>(k);
+      problem.patterns[k].q = block.f.col(column).head(m);
+      problem.patterns[k].p = block.f.col(column).tail(n);
+   }
+   // Of mirror images tangential and normal displacements do not feel each other. What rounding
+   // and two meshes leave of it goes.
+   const Eigen::ArrayXd own = problem.K.diagonal().cwiseSqrt();
+   const auto none = [&](Index j)
+   { return (problem.K.col(j).tail(n).array().abs() <= 1e-10 * own[j] * own.tail(n)).all(); };
+   Index j = 0;
+   while (j < m && none(j)) { ++j; }
+   if (j == m) { problem.K.bottomLeftCorner(n, m).setZero(); }
+   join_coupling(problem);
+}
+
 } // namespace cattaneo

@@ -2,6 +2,7 @@
 
 #include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/condense/free_motions.hpp>
+#include <cattaneo/condense/trace.hpp>
 
 namespace cattaneo
 {
@@ -33,8 +34,8 @@ Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLo
 /// Positions that are not held, of so many.
 std::vector<int> others(const std::vector<int> &held, Eigen::Index count);
 
-/// Dofs of a contact line, {x; y} of all its nodes (torsion: the twist), and which of them
-/// supports hold: no part of the body's trace.
+/// Dofs of a trace, {x; y} of all its nodes (in space {x; y; z}, torsion: the twist), and which
+/// of them supports hold: no part of the body's trace.
 struct ContactDofs
 {
    std::vector<int> all;
@@ -45,31 +46,36 @@ struct ContactDofs
    /// plane of symmetry, though the node itself may be at rest.
    std::vector<int> in_moved_plane = {};
 
-   /// One of them is moved. InputError that names the node for a body of torsion.
-   void move(int position, Eigen::Index load, double by, const ContactLine &line,
+   /// One of them is moved. InputError that names the node for a body of torsion or in space.
+   void move(int position, Eigen::Index load, double by, const Trace &trace,
              const std::vector<BodyLoad> &loads);
    std::vector<int> free() const;
    std::vector<int> free_positions() const;
 };
 
-/// The dofs of a line whose body has so many dofs. InputError if the line is not sound
-/// (ContactLine::validate), is of another formulation, or its dofs are not from 0 to dofs - 1.
+/// The dofs of a trace whose body has so many dofs. InputError if it is of another formulation,
+/// or its dofs are not from 0 to dofs - 1.
+ContactDofs contact_dofs(const Trace &trace, Formulation formulation, int dofs);
+/// The same of a line. InputError also if it is not sound (ContactLine::validate).
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
 
 /// Does a load move one of these dofs in the plane of a contact dof, across its component? The
-/// dof is the one at a position of those of a line.
-bool moves_plane(const ContactLine &line, int position, const DofPlaces &places,
+/// dof is the one at a position of those of a trace.
+bool moves_plane(const Trace &trace, int position, const DofPlaces &places,
                  const std::vector<int> &fixed, const std::vector<BodyLoad> &loads);
 
 /// InputError that names the node at a position of the contact dofs: it moves as `how` says,
 /// and may not.
-[[noreturn]] void refuse_motion(const ContactLine &line, int position, const std::string &how);
+[[noreturn]] void refuse_motion(const Trace &trace, int position, const std::string &how);
 /// See refuse_motion(), of a node that a rigid block takes with it.
 constexpr const char *in_guide = "is in a guide";
 
 /// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
 /// Only names and controls of `loads` are used. InputError as of meet_supports().
 CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
+                              const ContactDofs &contact, Condensation found);
+/// The same of a surface.
+CondensedBody in_local_frames(const ContactSurface &surface, const std::vector<BodyLoad> &loads,
                               const ContactDofs &contact, Condensation found);
 
 /// The results of condense() before it turns to the frames of the line; `contact`: the free

@@ -2,8 +2,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
-#include <cattaneo/condense/contact_line.hpp>
+#include <cattaneo/condense/condensed_body.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -36,17 +37,25 @@ inline Eigen::Matrix2d directions(const LineNode &node, bool v_held, bool w_held
    return columns;
 }
 
-/** Change of frame of the forces at every contact node: {q; p} = R {x; y} with
+/// Does a direction, one of a frame that supports know, lie along the components that they
+/// hold?
+inline bool lies_in(const Eigen::Vector3d &direction, const std::array<bool, 3> &held)
+{
+   double part = 0;
+   for (int c = 0; c < 3; ++c) { part += held[c] ? direction[c] * direction[c] : 0; }
+   return part > 0.5;
+}
 
-       q_i = a_i x_i + b_i y_i,    p_i = c_i x_i + d_i y_i.
-
-    Displacements change back with Rᵀ. The rows of each 2 × 2 block are across each other, and
-    of length 1 but where supports hold one component of a node whose frame leans on the axes
-    (directions()). One component a node (b, c and d empty): q_i = a_i m_i, in torsion the
-    circumferential force of a torque about the axis. */
+/** Change of frame of the forces at every contact node: {q; p} = R {x; y}, in space
+    {q₁; q₂; p} = R {x; y; z}, with blocks R_i of as many rows as a node has components.
+    Displacements change back with Rᵀ. The rows of each block are across each other, and of
+    length 1 but where supports hold one component of a node whose frame leans on the axes
+    (directions()). One component a node: q_i = R_i m_i, in torsion the circumferential force of
+    a torque about the axis. */
 struct FrameChange
 {
-   Eigen::VectorXd a, b, c, d;
+   int components = 0;
+   Eigen::MatrixXd blocks; ///< n × components², the rows of each block one after the other
 
    /// From global components to the frames of a contact line's nodes; of torsion, from torques
    /// about the axis to circumferential forces. `held`: rows {v; w} that supports hold, sorted.
@@ -54,78 +63,145 @@ struct FrameChange
    {
       if (line.formulation == Formulation::torsion)
       {
-         return {line.each(&LineNode::position).col(0).cwiseInverse(), {}, {}, {}};
+         return {1, line.each(&LineNode::position).col(0).cwiseInverse()};
       }
-      const auto tangent = line.each(&LineNode::tangent), normal = line.each(&LineNode::normal);
-      FrameChange made{tangent.col(0), tangent.col(1), normal.col(0), normal.col(1)};
       const auto n = static_cast<int>(line.size());
+      FrameChange made{2, Eigen::MatrixXd(n, 4)};
+      made.blocks << line.each(&LineNode::tangent), line.each(&LineNode::normal);
       const auto holds = [&](int row)
       { return std::binary_search(held.begin(), held.end(), row); };
       for (int row : held)
       {
          const int i = row % n;
          const Eigen::Matrix2d D = directions(line.nodes[i], holds(i), holds(n + i));
-         made.a[i] = D(0, 0);
-         made.b[i] = D(1, 0);
-         made.c[i] = D(0, 1);
-         made.d[i] = D(1, 1);
+         made.blocks.row(i) << D(0, 0), D(1, 0), D(0, 1), D(1, 1);
       }
       return made;
    }
-   FrameChange transposed() const { return {a, c, b, d}; }
-   /// R⁻¹, of two components a node: forces change back with it, displacements with R⁻ᵀ.
+   /// The same of a surface, whose frames have the axes that supports hold.
+   static FrameChange of(const ContactSurface &surface)
+   {
+      FrameChange made{3, Eigen::MatrixXd(surface.size(), 9)};
+      for (Eigen::Index i = 0; i < surface.size(); ++i)
+      {
+         const Eigen::Matrix3d &frame = surface.nodes[i].frame;
+         made.blocks.row(i) << frame.row(0), frame.row(1), frame.row(2);
+      }
+      return made;
+   }
+   FrameChange transposed() const
+   {
+      FrameChange made = *this;
+      for (int k = 0; k < components; ++k)
+      {
+         for (int l = 0; l < components; ++l)
+         {
+            made.blocks.col(k * components + l) = blocks.col(l * components + k);
+         }
+      }
+      return made;
+   }
+   /// Squared lengths of the rows of each block, n × components.
+   Eigen::MatrixXd squares() const
+   {
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(blocks.rows(), components);
+      for (int k = 0; k < components * components; ++k)
+      {
+         all.col(k / components) += blocks.col(k).cwiseAbs2();
+      }
+      return all;
+   }
+   /// R⁻¹: forces change back with it, displacements with R⁻ᵀ.
    FrameChange inverse() const
    {
       FrameChange made = transposed();
-      for (Eigen::Index i = 0; i < a.size(); ++i)
+      const Eigen::MatrixXd lengths = squares();
+      for (Eigen::Index i = 0; i < lengths.rows(); ++i)
       {
-         const double along = a[i] * a[i] + b[i] * b[i], across = c[i] * c[i] + d[i] * d[i];
-         if (along == across) { continue; } // both 1, but for rounding
-         made.a[i] /= along;
-         made.c[i] /= along;
-         made.b[i] /= across;
-         made.d[i] /= across;
+         // All of length 1, but for rounding.
+         if (components > 1 && turns(lengths.row(i))) { continue; }
+         for (int k = 0; k < components * components; ++k)
+         {
+            made.blocks(i, k) /= lengths(i, k % components);
+         }
       }
       return made;
    }
    /// Are all blocks rotations?
    bool rotates() const
    {
-      return (a.array().square() + b.array().square() ==
-              c.array().square() + d.array().square())
-         .all();
+      const Eigen::MatrixXd lengths = squares();
+      for (Eigen::Index i = 0; i < lengths.rows(); ++i)
+      {
+         if (!turns(lengths.row(i))) { return false; }
+      }
+      return true;
    }
 
-   /// R M, for vectors and matrices of 2n (or n) rows.
+   /// R M, for vectors and matrices of as many rows as all nodes have components.
    template <class Derived>
    Eigen::MatrixXd rows(const Eigen::MatrixBase<Derived> &M) const
    {
-      const Eigen::Index n = a.size();
-      if (b.size() == 0) { return a.asDiagonal() * M; }
+      const Eigen::Index n = blocks.rows();
       Eigen::MatrixXd result(M.rows(), M.cols());
-      result.topRows(n) = a.asDiagonal() * M.topRows(n);
-      result.topRows(n) += b.asDiagonal() * M.bottomRows(n);
-      result.bottomRows(n) = c.asDiagonal() * M.topRows(n);
-      result.bottomRows(n) += d.asDiagonal() * M.bottomRows(n);
+      for (int k = 0; k < components; ++k)
+      {
+         auto part = result.middleRows(k * n, n);
+         part = blocks.col(k * components).asDiagonal() * M.topRows(n);
+         for (int l = 1; l < components; ++l)
+         {
+            part += blocks.col(k * components + l).asDiagonal() * M.middleRows(l * n, n);
+         }
+      }
       return result;
    }
    /// R M Rᵀ of a symmetric M, symmetric to the last bit.
    Eigen::MatrixXd both(Eigen::MatrixXd M) const
    {
-      const Eigen::Index n = a.size();
-      // Flat lines along the first axis, either way, have R = ±1.
-      const bool flat = b.size() > 0 && b.isZero(0) && c.isZero(0) && std::abs(a[0]) == 1 &&
-                        (a.array() == a[0]).all() && (d.array() == a[0]).all();
-      if (b.size() == 0) { M = a.asDiagonal() * M * a.asDiagonal(); }
-      for (Eigen::Index i = 0; i < n && b.size() > 0 && !flat; ++i) // two columns a node
+      const Eigen::Index n = blocks.rows();
+      Eigen::MatrixXd its(M.rows(), components); // the columns of a node
+      const bool nothing = flat();
+      for (Eigen::Index i = 0; i < n && !nothing; ++i)
       {
-         const Eigen::VectorXd x = M.col(i), y = M.col(n + i);
-         M.col(i) = rows(a[i] * x + b[i] * y);
-         M.col(n + i) = rows(c[i] * x + d[i] * y);
+         for (int k = 0; k < components; ++k) { its.col(k) = M.col(k * n + i); }
+         for (int k = 0; k < components; ++k)
+         {
+            Eigen::VectorXd column = blocks(i, k * components) * its.col(0);
+            for (int l = 1; l < components; ++l)
+            {
+               column += blocks(i, k * components + l) * its.col(l);
+            }
+            M.col(k * n + i) = rows(column);
+         }
       }
       mirror_lower(M);
       return M;
    }
+
+private:
+   /// Rows of lengths that are the same, or 1 to rounding.
+   bool turns(const Eigen::RowVectorXd &squares) const
+   {
+      return components < 3 ? squares.minCoeff() == squares.maxCoeff()
+                            : (squares.array() - 1).abs().maxCoeff() < 1e-12;
+   }
+   /// Flat traces along the axes, either way, have R = ±1.
+   bool flat() const
+   {
+      for (int k = 0; k < components * components; ++k)
+      {
+         const double wanted = k % (components + 1) == 0 ? blocks(0, 0) : 0;
+         if ((blocks.col(k).array() != wanted).any()) { return false; }
+      }
+      return std::abs(blocks(0, 0)) == 1;
+   }
 };
+
+/// Of the trace of a body.
+inline FrameChange frames_of(const CondensedBody &body)
+{
+   return body.surface.size() > 0 ? FrameChange::of(body.surface)
+                                  : FrameChange::of(body.line, body.held);
+}
 
 } // namespace cattaneo

@@ -63,9 +63,10 @@ struct AloneDirection
    double diagonal = 0;       ///< what K holds along it
 };
 
-/** The first node with a direction across the axes that nothing but a diagonal holds, to 1e-12
-    of what the node's rows hold: a support on a slope that was eliminated in axes of its own
-    before K was turned back to x and y. Rows of `fixed` dofs (sorted) are not looked at.
+/** In the plane and about an axis: the first node with a direction across the axes that nothing
+   but a diagonal holds, to 1e-12 of what the node's rows hold: a support on a slope that was
+   eliminated in axes of its own before K was turned back to x and y. Rows of `fixed` dofs
+   (sorted) are not looked at.
 
     Both of the node's rows have entries beside it then, but these are multiples of each other,
     and the direction that they leave out is a principal one of the node's own 2 × 2 block. */

@@ -9,36 +9,39 @@ namespace cattaneo
 /// A node of a body's trace, over all bodies.
 using NodeOfBody = std::pair<int, int>;
 
-/// What a contact node sees of a node of a body's trace: in global components, x and y apart.
+/// What a contact node sees of a node of a body's trace: in global components, each apart.
 struct TraceShare
 {
    NodeOfBody of;
-   double x = 0, y = 0;
+   double x = 0, y = 0, z = 0;
 };
 
-/// A contact node: its relative displacement is the sum of its shares in the frame of a
-/// tangent.
+/// A contact node: its relative displacement is the sum of its shares in its frame.
 struct ContactRow
 {
    NodeOfBody slave;
-   Eigen::Vector2d tangent{1, 0};
-   bool slides = true; ///< false: the slave is held along the tangent, and so is what it faces
+   Eigen::Vector2d tangent{1, 0}; ///< of a line
+   /// In space: rows are the tangents and the normal.
+   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+   /// Of each tangent; false: the slave is held along it, and so is what it faces.
+   std::array<bool, 2> slides{true, true};
    std::vector<TraceShare> shares; ///< the slave's own among them
-   /// The nodes whose components, 0 along the tangent and 1 across it, relative displacements
-   /// determine: the slave, or the one node that faces it. See choose_dependents().
-   std::array<NodeOfBody, 2> dependent{slave, slave};
+   /// The nodes whose components, those along the tangents and the one across, relative
+   /// displacements determine: the slave, or the one node that faces it. See
+   /// choose_dependents().
+   std::array<NodeOfBody, 3> dependent{slave, slave, slave};
 
    /// The node that faces the slave if it sees that one alone, as it is.
    const NodeOfBody *partner() const;
 };
 
-/// Do supports hold a component of a contact node, 0 along its frame or 1 across?
+/// Do supports hold a component of a contact node, in the order of its frame?
 bool holds(const CondensedBody &body, int node, int component);
 
 /** Which nodes relative displacements determine. Of two nodes that face each other alone either
     may be it: the one that no support holds, then the softer one, since what is taken from its
     stiffness is less and loses fewer digits. Where one of them is held in a component the other
-    is determined there. A row along whose tangent both are held does not slide. */
+    is determined there. A row along a tangent of which both are held does not slide. */
 void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<ContactRow> &rows);
 
 /** How contact displacements of bodies and relative displacements of contact nodes make each
@@ -57,6 +60,8 @@ struct RelativeDisplacement
    std::vector<int> place;             ///< and those of {v; w} in u, -1: does not slide
    int components = 2;                 ///< of a node
 
+   /// Number of tangents of a node.
+   int tangents() const { return components == 3 ? 2 : 1; }
    /// No dependent displacement may depend on itself.
    RelativeDisplacement(const std::vector<CondensedBody> &bodies,
                         const std::vector<ContactRow> &rows);

@@ -32,6 +32,9 @@ struct Block
 Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
              const Reduction::PatternIndex &index, const std::vector<LoadPattern> &patterns);
 
+/// What is left of a block in a problem, without gaps and friction; `components` of a node.
+void take(Block block, int components, ReducedProblem &problem);
+
 /// Numbers of the bodies' patterns among all, which grow by those that are new.
 Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
                              std::vector<LoadPattern> &all);
