@@ -81,13 +81,14 @@ struct CaseOptions
          "thickness (default: per thickness).",
          positive);
       study.option(&geometry, "geometry",
-                   "Sides of straight edges: smooth (curves through their vertices where these "
-                   "turn as on one) or as meshed (polygons).",
+                   "Sides meshed with straight edges: smooth (the curve through their "
+                   "vertices, if they lie on one) or as meshed (polygons).",
                    {"smooth", "as meshed"});
       study.option(&bodies, "bodies", "Bodies by their names, as JSON.", Text::structure);
       study.option(&interfaces, "interfaces", "Where they touch, by names, as JSON.",
                    Text::structure);
-      study.option(&bolts, "bolts", "Shanks that pull two parts together, by names, as JSON.",
+      study.option(&bolts, "bolts",
+                   "Bolts, which pull two parts together, by their names, as JSON.",
                    Text::structure);
       study.option(&points, "points",
                    "Where displacements and stresses are asked for, by names, as JSON.",
@@ -99,9 +100,9 @@ struct CaseOptions
       study.options().add_set();
       study.option(&order, "order", "Order of the elements.", within(1, 8));
       study.option(&edges, "edges",
-                   "Times of two states: pressed, and at the peak of the cyclic loads. Reports "
-                   "K_N, K_T and slip at the contact edges; a third time is the other end of "
-                   "the cycle, for the energy.");
+                   "Times of two states, after pressing and at the peak of the cyclic loads: "
+                   "prints K_N, K_T and slip at the edges of contact. A third time, the other "
+                   "end of the cycle, adds the energy.");
       study.option(&paraview, "paraview", "Folder for ParaView files.", Text::folder);
    }
 

@@ -220,15 +220,17 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
    study.option(&cycle_start_, "cycle-start",
                 "Point of the history (from 0) where its cycle starts; -1: there is none.",
                 at_least(-1));
-   study.option(&cycles_, "cycles", "How often the cycle is marched (fewer once it is steady).",
+   study.option(&cycles_, "cycles", "Number of cycles to march (fewer if they become steady).",
                 at_least(1));
    study.option(&settings.increments, "increments",
                 "Load increments between two points of the history.", at_least(1));
    stepping_.declare_with_events(study);
-   study.option(&frames_, "frames",
-                "Times to be written besides the last one, or all (every increment).");
+   study.option(
+      &frames_, "frames",
+      "Times at which states are written besides the last one, or all (every increment).");
    study.option(&save_state_, "save-state", "File for the last state.", Text::output);
-   study.option(&load_state_, "load-state", "State to go on from.", Text::input);
+   study.option(&load_state_, "load-state", "State from which the march continues.",
+                Text::input);
    study.options().group("The study");
    for (const char *name : {"frames", "load-state"})
    {

@@ -323,7 +323,8 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
    }
    for (const std::string &load : still)
    {
-      study.say("load " + load + " moves nothing that it acts on in a cycle: its loop is none");
+      study.say("load " + load +
+                " moves nothing that it acts on in a cycle, so it has no loop");
    }
    report_steady(study, report);
    add_loops(study.lines("loops", "Loads over their displacements", "displacement", "force"),
@@ -415,10 +416,10 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
       const bool several = problem.rigid_motions.cols() > 0 && problem.friction.maxCoeff() > 0;
       say(report.fallbacks,
           " increments where there is no exact path: ", report.fallback_reason,
-          several ? "; where friction alone holds bodies such an increment may have several "
-                    "answers, one is gone on from, and other increments or units may find "
-                    "another"
-                  : "");
+          several
+             ? "; if only friction holds bodies such an increment may have several answers, of "
+               "which one was chosen, and other increments or units may find another"
+             : "");
    }
    if (report.advance_error > 1e-6)
    {
@@ -435,7 +436,7 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
    }
    if (report.taken_up_clearance > 0)
    {
-      say("What was free and touched nothing was moved before the march, by up to ",
+      say("Free bodies that touched nothing were moved before the march, by up to ",
           text("%.4g", report.taken_up_clearance), ", to where the first loads press it on");
    }
    if (report.status == FrictionStatus::converged) { return 0; }

@@ -31,28 +31,27 @@ void Study::parse(const char *json)
    option(&json_, {json, "json"}, "File for the results.", Text::output);
    option(&csv_, "csv", "Prefix of CSV files of tables and figures.", Text::prefix);
    option(&plot_, "plot", "Picture of the results (png, pdf, svg).", Text::picture);
-   option(&html_, "html", "Page of the run, with its increments to look at one by one.",
+   option(&html_, "html", "Page (HTML) of the run, with a slider over its increments.",
           Text::page);
    option(&check_, "check",
-          "Show bodies, contact, supports and loads (tables, --plot), and stop there.");
+          "Show bodies, contact, supports and loads in tables (and with --plot in a picture), "
+          "and compute nothing.");
    options_.leave_out_of_cases("check");
    option(&verbose_, "verbose",
-          "Prints all: every option, all rows of long tables, how often each expensive act was "
-          "done, the kernels of OpenBLAS.");
+          "Print all: every option, all rows of long tables, how often each expensive step was "
+          "done, and the kernels of OpenBLAS.");
    options_.leave_out_of_cases("verbose");
    option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
           Text::output);
    options_.group("Many runs");
    option(&sweep_, "sweep",
-          "Runs that differ in an option, as 'friction=0.2 0.5' or 'order=1:4:4' "
-          "(from:to:count), or in "
-          "several places, as history.2.Q,-history.3.Q=0.1 0.2; may be given several times, "
-          "for all "
-          "combinations (or with semicolons between).",
+          "One run for each value of an option, as 'friction=0.2 0.5' or 'order=1:4:4' "
+          "(from:to:count). Several places may share a value, as history.2.Q,-history.3.Q=0.1 "
+          "0.2. Several --sweep, or semicolons, make all combinations.",
           Text::statements);
    option(&sweep_results_, "sweep-results",
-          "Results of a sweep, as in --json (dissipation.0 \"cycles.0.work Q\"); default: "
-          "numbers.");
+          "Results in the table of a sweep, by their names in --json (dissipation.0 "
+          "\"cycles.0.work Q\"); default: all single numbers.");
    if (ranks() > 1)
    {
       options_.group("Several ranks");
