@@ -219,7 +219,7 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
                      {"separation", "open (length)" + u.of(0, 1), "%.4g"},
                      {"tied"},
                      {"nodes"},
-                     {"free_surface", faces_nothing ? "face nothing" : ""},
+                     {"free_surface", faces_nothing ? "no node opposite" : ""},
                      {"arm"}});
    std::vector<Zone> all_zones;
    if (reduction_.problem.nodes() > 0)

@@ -435,10 +435,11 @@ void bind_stiffness(nb::module_ &m)
             }
          },
          arg("load"), arg("nodes"), arg("direction"), arg("force"),
-         "Adds a force at each node, per unit multiplier, to a load.\n\nload: its name, new or "
-         "already there. nodes: the name of a set, numbers of nodes, or a mask over `nodes`. "
-         "direction: 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'. force: that of each "
-         "node in this direction. About an axis it is the force on the whole circumference.")
+         "Adds a force at each node, per unit multiplier, to a load. The load may be a new "
+         "one.\n\nload: its name. nodes: the name of a set, numbers of nodes, or a mask over "
+         "`nodes`. direction: 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'. force: that of "
+         "each node in this direction. About an axis it is the force on the whole "
+         "circumference.")
       .def(
          "add_displacement",
          [](Self &self, const std::string &load, Nodes nodes, const std::string &direction,

@@ -467,7 +467,7 @@ def test_warn_of_what_is_not_meant(run):
     assert bolt["least"] == bolt["most"]
     assert "bolt 'bolt' pushes its ends apart, by up to 0.0497" in pushed.warned()
     assert "load 'Z' is zero throughout the history" in pushed.warned()
-    assert "face nothing" not in pushed.output
+    assert "no node opposite" not in pushed.output
     keys["history"] = ["F=0", "bolt=1", "Z=1 F=1", "F=0 Z=0"]
     assert run.case(keys).warned() == ""
     # Forces of a shank along y that pass each other at 0.875 - 0.125.
@@ -483,7 +483,7 @@ def test_warn_of_what_is_not_meant(run):
     del keys["bolts"]
     wide = run.case(keys)
     assert wide.interface("joint")["free_surface"] == 2
-    assert "face nothing" in wide.output
+    assert "no node opposite" in wide.output
     # They are drawn where they are.
     run.case(keys, "--check", "--csv", run.folder / "wide")
     drawn = (run.folder / "wide_contact.csv").read_text(encoding="utf-8").splitlines()
