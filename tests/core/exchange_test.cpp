@@ -1056,7 +1056,8 @@ TEST_F(Exchange, ADeckAndItsMatrixFindEachOther)
    write_whole("job_STIF2.mtx", "1,1,1,1,1.\n1,2,1,2,2.\n2,1,2,1,3.\n2,2,2,2,4.\n");
    EXPECT_EQ(read_stiffness("job_STIF2.mtx").places.at(2), Eigen::Vector2d(1, 2));
    // The second matrix is not that of the deck's only step.
-   expect_input_error([] { matrix_of_deck("job.inp"); }, "there is no stiffness beside it, must be one of");
+   expect_input_error([] { matrix_of_deck("job.inp"); },
+                      "there is no stiffness beside it, must be one of");
    std::filesystem::copy("job_STIF2.mtx", "job_STIF1.mtx");
    EXPECT_EQ(matrix_of_deck("job.inp"), "job_STIF1.mtx");
    write_whole("job.sti", "1 1 1.\n");

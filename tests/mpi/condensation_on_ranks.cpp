@@ -348,7 +348,8 @@ void errors()
    // A side that is pushed takes a corner of the contact with it: the same on one rank.
    body.add_displacement("aside", left, 0, ScalarField([](double, double y) { return 1 + y; }));
    ElasticBody alone(whole, 2, Material{2.0, 0.3});
-   alone.add_displacement("aside", left, 0, ScalarField([](double, double y) { return 1 + y; }));
+   alone.add_displacement("aside", left, 0,
+                          ScalarField([](double, double y) { return 1 + y; }));
    const CondensedBody one = condense(alone, contact_line(alone, bottom));
    expect(one.moved.cwiseAbs().sum() > 0.9, "moved corner", "nothing moves");
    for (int direct_dofs : {0, 1000000})

@@ -557,8 +557,8 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
               "reduce: the bodies must be all plane or all axisymmetric (those of torsion are "
               "added to a reduction of these, those in space are reduced by a pairing)");
    }
-   // A node that several interfaces share is that of the first one. Ties come before all others:
-   // where a tie and a contact meet nothing opens.
+   // A node that several interfaces share is that of the first one. Ties come before all
+   // others: where a tie and a contact meet nothing opens.
    std::vector<std::size_t> order(interfaces.size());
    std::iota(order.begin(), order.end(), 0);
    std::stable_partition(order.begin(), order.end(),

@@ -340,8 +340,8 @@ void ReducedProblem::validate() const
            n, "×2 or ", n, "×3");
    require(position.allFinite(), "reduced problem: position has an entry that is not finite");
    const bool in_space = position.cols() == 3;
-   require(dofs.size() == 0 || (dofs.rows() == n && (dofs.cols() % 2 == 0 ||
-                                                     (in_space && dofs.cols() % 3 == 0))),
+   require(dofs.size() == 0 || (dofs.rows() == n &&
+                                (dofs.cols() % 2 == 0 || (in_space && dofs.cols() % 3 == 0))),
            "reduced problem: dofs is ", dofs.rows(), "×", dofs.cols(), ", must have ", n,
            " rows and two columns for each body", in_space ? ", in space three" : "");
    for (const Eigen::Index node : rim)
