@@ -341,7 +341,10 @@ TEST_F(Output, TablesAreReadBackToTheLastBit)
    EXPECT_EQ(cycle, 4);
    EXPECT_EQ(load, state.multipliers[0]);
    EXPECT_NE(history.find("time,cycle,load P,stick,"), std::string::npos);
-   EXPECT_EQ(std::stod(history.substr(history.rfind(',') + 1)), 2.0 / 7);
+   // The displacement comes before the method, which nobody named, and the node of an event.
+   const std::size_t end = history.rfind(",,-1\n");
+   ASSERT_NE(end, std::string::npos) << history;
+   EXPECT_EQ(std::stod(history.substr(history.rfind(',', end - 1) + 1)), 2.0 / 7);
 
    write_nodes(folder + "/nodes.csv", problem, {state, state});
    const std::string nodes = content(folder + "/nodes.csv");
@@ -496,6 +499,8 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    record.residual_normal = 1e-10;
    record.residual_tangential = 1e-11;
    record.round_off = 1e-12;
+   record.found_by = "event path";
+   record.event = 9;
    ReducedProblem problem = four_springs();
    ContactState state = ContactState::virgin(problem);
    state.dissipation = 8.2;
@@ -514,7 +519,9 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    const auto expect = [](std::map<std::string, std::vector<std::string>> &table,
                           const std::map<std::string, double> &expected)
    {
-      EXPECT_EQ(table.size(), expected.size());
+      // The method is a word, which is compared by itself.
+      EXPECT_EQ(table["found_by"], (std::vector<std::string>{"event path", "event path"}));
+      EXPECT_EQ(table.size(), expected.size() + 1);
       for (const auto &[column, value] : expected)
       {
          // The energy lost by then is the state's, the same in both rows of this test.
@@ -534,6 +541,7 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
                                            {"residual_normal", 1e-10},
                                            {"residual_tangential", 1e-11},
                                            {"round_off", 1e-12},
+                                           {"event", 9},
                                            {"displacement P", 3.5},
                                            {"displacement Q right", -4.5}};
    std::map<std::string, double> expected = common;
@@ -564,8 +572,10 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    EXPECT_EQ(quoted.rfind("time,cycle,\"load bolt 1, w = 1\",\"load a \"\"b\"\"\",stick,", 0),
              0u)
       << quoted;
-   EXPECT_NE(quoted.find(",\"displacement bolt 1, w = 1\",\"displacement a \"\"b\"\"\"\n"),
-             std::string::npos)
+   EXPECT_NE(
+      quoted.find(
+         ",\"displacement bolt 1, w = 1\",\"displacement a \"\"b\"\"\",found_by,event\n"),
+      std::string::npos)
       << quoted;
    problem.chains = {{"left, upper", 0, 2}, {"right", 2, 2}};
    write_nodes(folder + "/quoted.csv", problem, {ContactState::virgin(problem)});
