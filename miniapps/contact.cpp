@@ -143,8 +143,12 @@ void contact(Study &study)
                      joint.formulation == Formulation::plane && std::isnan(options.thickness)};
       study.results["units"] = {{"length", joint.unit_of_length},
                                 {"force", joint.unit_of_force}};
-      study.say("   units are" + study.units.of(0, 1) + " and" + study.units.of(1, 0) +
-                ", forces in" + study.units.total(0));
+      // Each column and each number has its unit.
+      if (study.verbose())
+      {
+         study.say("   units are" + study.units.of(0, 1) + " and" + study.units.of(1, 0) +
+                   ", forces in" + study.units.total(0));
+      }
    }
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());

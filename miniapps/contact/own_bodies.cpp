@@ -16,7 +16,6 @@ using namespace cattaneo;
 
 OwnBodies make_own_bodies(const JointCase &joint)
 {
-   require_own_meshes(joint);
    OwnBodies own;
    std::vector<OwnPart> parts;
    int half_planes = 0;
@@ -53,6 +52,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
       if (bolt.ends[1].body >= 0) { warn_of_push(joint, bolt, ends); }
    }
    std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
+   require_own_meshes(joint);
    std::vector<std::vector<ContactLine>> of_body(parts.size());
    for (std::size_t k = 0; k < joint.faces.size(); ++k)
    {

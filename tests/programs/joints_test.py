@@ -790,7 +790,7 @@ WRONG = [
     ({"bodies.pad.youngs": 1}, "key 'bodies.pad': unknown key 'youngs'"),
     ({"bodies.pad.young": -1}, "key 'bodies.pad.young' is -1, must be positive"),
     ({"bodies.pad.support": "7:x"}, "body pad ("),
-    ({"bodies.base.support": "1,3:xy"}, "is it the one that touches?"),
+    ({"bodies.base.support": "1,3:xy"}, "its side '3' of body base is held in all components by supports of the body (1,3:xy)"),
     ({"bodies.pad.load": 3}, "key 'bodies.pad.load' is 3, must be a string"),
     ({"bodies.pad.load": "P push 3 1"}, "bodies.pad.load' 'P push 3 1'"),
     ({FLAT + "between": ["pad:1", "bass:3"]}, "there is no body 'bass', must be one of pad, base"),

@@ -130,7 +130,7 @@ def test_a_study_has_one_clock(run):
     near(got["event_time"], slides, 1e-6)
     assert "at time 2.714" in got.output
     near(float(run.text("clock_history.csv").splitlines()[-1].split(",")[0]), slides, 1e-6)
-    assert '"time":2.714' in run.text("clock.html")
+    assert '"time": 2.714' in run.text("clock.html")
 
 
 @pytest.mark.parametrize("options", [

@@ -24,7 +24,7 @@ VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.49
 NAMED = {"bodies", "interfaces", "bolts", "points"}
 # How a schema may say things here: a keyword that is not read would be taken for granted.
 KEYWORDS = {"description", "$ref", "type", "enum", "const", "oneOf", "items", "minimum", "maximum", "exclusiveMinimum",
-            "exclusiveMaximum", "properties", "required", "additionalProperties", "minItems", "maxItems", "minProperties"}
+            "exclusiveMaximum", "properties", "required", "additionalProperties", "minItems", "maxItems", "minProperties", "minLength"}
 
 
 DRAW = random.Random(1)
@@ -63,7 +63,7 @@ def fits(schema, value, definitions):
         return schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)) and all(
             fits(schema["items"], item, definitions) for item in value)
     return all(holds(schema[word], value) for word, holds in (
-        ("minimum", lambda bound, x: x >= bound), ("maximum", lambda bound, x: x <= bound),
+        ("minLength", lambda bound, x: len(x) >= bound), ("minimum", lambda bound, x: x >= bound), ("maximum", lambda bound, x: x <= bound),
         ("exclusiveMinimum", lambda bound, x: x > bound), ("exclusiveMaximum", lambda bound, x: x < bound))
         if word in schema)
 

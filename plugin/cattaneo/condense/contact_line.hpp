@@ -87,8 +87,8 @@ struct LineChain
    /// of symmetry, as coordinates of six digits may have that error. At larger angles it does
    /// so only if it curves such that it meets its own mirror image without a corner.
    static constexpr double symmetry_turn = 0.01;
-   static constexpr double smooth_turn =
-      10; ///< turn of the tangent between elements in degrees; less is smooth
+   /// Turn of the tangent between elements in degrees; less is smooth
+   static constexpr double smooth_turn = 10;
    static constexpr double corner_turn = 45; ///< degrees: more is a corner
 };
 

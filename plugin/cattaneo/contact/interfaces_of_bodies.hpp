@@ -28,9 +28,9 @@ struct BoundaryInterface
    BoundarySide second;                           ///< the other body, or a rigid obstacle
    SlaveSide slave = SlaveSide::coarser;          ///< which of the two has the nodes
    std::optional<ScalarField> gap = std::nullopt; ///< the geometry's unless given
-   double most_overlap =
-      Interface().most_overlap; ///< in lengths of an element; a larger overlap is an error
-   bool tied = false;           ///< joined, whatever happens
+   /// In lengths of an element; a larger overlap is an error
+   double most_overlap = Interface().most_overlap;
+   bool tied = false; ///< joined, whatever happens
    /// Gaps are those of the meshes' edges. Otherwise straight edges whose vertices lie as on a
    /// smooth curve are taken for its chords (smooth_curve()), and gaps are measured between the
    /// curves, without changing the meshes. With elements of order 2 or more it is better to

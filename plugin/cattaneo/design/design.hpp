@@ -101,8 +101,8 @@ const char *name(DesignStatus status);
 /// How a design is searched. The defaults need no tuning.
 struct DesignSettings
 {
-   MarchSettings
-      march; ///< a steady state does not end it; its monitor watches the whole search
+   /// A steady state does not end it; its monitor watches the whole search
+   MarchSettings march;
    /// Largest error of the conditions of optimality, in units of the objective at the start,
    /// and of the limits.
    double tolerance = 1e-8;

@@ -19,8 +19,8 @@ struct BoundaryPart
    double lo = -std::numeric_limits<double>::infinity(); ///< lower end of the interval, in the
                                                          ///< mesh's units
    double hi = std::numeric_limits<double>::infinity();  ///< upper end
-   int marked =
-      0; ///< number of entries of the marker from which it was made; 0: without a marker
+   /// Number of entries of the marker from which it was made; 0: without a marker
+   int marked = 0;
 
    /// All of one attribute.
    BoundaryPart(int attribute) : attributes{attribute} {}

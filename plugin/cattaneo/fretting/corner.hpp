@@ -38,8 +38,8 @@ struct CornerMode
 {
    double eigenvalue = 0.0; ///< λ; the stress is singular if λ < 1
    double pressure = 0.0;   ///< p of the mode at unit distance, compression positive
-   double shear =
-      0.0; ///< q of the mode at unit distance, positive on the body into the contact
+   /// q of the mode at unit distance, positive on the body into the contact
+   double shear = 0.0;
    /// Shear on the *pad* into the contact over the pressure. Square punch on a half-plane:
    /// 0.543075578837 in mode I, -0.218923236249 in mode II. Without a sign of its own in the
    /// limit of no pressure (equal angles, mode II), where it is infinite.

@@ -13,8 +13,8 @@ struct CutOffContact
 {
    std::string interface;  ///< name of the line's
    Eigen::Index chain = 0; ///< in the problem's list; -1: the rim of a surface
-   Eigen::Index node =
-      0; ///< the outermost node of the chain at that end; on a rim the most compressed one
+   /// The outermost node of the chain at that end; on a rim the most compressed one
+   Eigen::Index node = 0;
    bool at_first = false; ///< it is the first node of the chain, else the last
    double x = 0;          ///< of the node, 0 if the problem has no positions
    double y = 0;          ///< likewise

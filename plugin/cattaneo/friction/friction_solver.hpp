@@ -62,8 +62,8 @@ struct FrictionSettings
 /// What an increment came to.
 struct IncrementReport
 {
-   FrictionStatus status =
-      FrictionStatus::stalled; ///< a solution was found if converged or not_unique
+   /// A solution was found if converged or not_unique
+   FrictionStatus status = FrictionStatus::stalled;
    std::string message; ///< empty if converged; docs/increments.md says where each comes from
    /// If a solution was found: its largest violation of the given equations and of the laws,
    /// over the largest force so far, computed in double precision. The true one is larger by

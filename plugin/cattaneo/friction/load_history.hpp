@@ -14,8 +14,8 @@ NamedLoads named(const ReducedProblem &problem, const Eigen::VectorXd &multiplie
 /// One linear piece of a load history.
 struct LoadPiece
 {
-   int point =
-      0; ///< number of the history's point where it starts, the same in every repeated cycle
+   /// Number of the history's point where it starts, the same in every repeated cycle
+   int point = 0;
    int cycle = 0; ///< cycle that it belongs to: 0 for the opening part, then 1, 2, …
    bool begins_cycle = false; ///< it starts where the cycle does
    bool ends_cycle = false;   ///< it ends where the cycle does

@@ -41,14 +41,14 @@ struct MarchSettings
    int increments = 20;                  ///< increments of each piece of the history
    std::vector<int> increments_of_piece; ///< increments of each piece, in place of `increments`
    Stepping stepping = Stepping::exact;  ///< how their ends are reached
-   bool single_increment_if_exact =
-      true; ///< false: take all increments even if a single one is exact
+   /// false: take all increments even if a single one is exact
+   bool single_increment_if_exact = true;
    /// Increments end at the events of an exact path, not at stops. The observer and the report
    /// get the states there, and MarchReport::changes lists the changes with which the next
    /// steps begin. Otherwise events are only counted.
    bool every_event = false;
-   int max_halvings =
-      12; ///< halvings of an increment, if contact advances or no solution is found
+   /// Halvings of an increment, if contact advances or no solution is found
+   int max_halvings = 12;
    bool stop_at_steady_state = true; ///< the remaining cycles would be the same
    /// A cycle is steady if the slip at its end differs from that one or two cycles before by
    /// less than this share of the largest slip of the history.
@@ -89,8 +89,8 @@ struct IncrementRecord
    /// Work of the loads by trapezoids (exact for linear increments, and on an exact path). If H
    /// is not known, only that of the contact's part of the conjugates.
    double external_work = 0;
-   double residual_normal =
-      0; ///< see IncrementReport; the largest within the increment, also below
+   /// See IncrementReport; the largest within the increment, also below
+   double residual_normal = 0;
    double residual_tangential = 0; ///< see IncrementReport
    double round_off = 0;           ///< see IncrementReport
    /// The method that found it: one of IncrementReport's, or that of the exact path ("event
@@ -172,8 +172,8 @@ struct MarchReport
    int fallbacks = 0; ///< increments that were taken because the exact path did not go on
    std::string
       fallback_reason; ///< reason of the first of them, a sentence of docs/increments.md
-   int stalled =
-      0; ///< increments that were halved because no solution was found; probes do not count
+   /// Increments that were halved because no solution was found; probes do not count
+   int stalled = 0;
    int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
    int steady_period = 0; ///< 1 or 2
    /// The error of the loss by friction, with MarchSettings::loss_error.
@@ -202,8 +202,8 @@ struct MarchReport
    /// nearest place where the first loads that push them press them on. The slip of the march
    /// begins there.
    double taken_up_clearance = 0;
-   Counters
-      counters; ///< of this march (those of making the solver are in the solver's counters)
+   /// of this march (those of making the solver are in the solver's counters)
+   Counters counters;
    double seconds = 0; ///< wall time
 };
 

@@ -85,8 +85,8 @@ struct FittedIntensity
 struct EdgeFit
 {
    FittedIntensity k_n; ///< p = K_N √t
-   FittedIntensity
-      k_t; ///< signed as fretting::Edge::k_t: > 0 pulls the body in, away from the edge
+   /// signed as fretting::Edge::k_t: > 0 pulls the body in, away from the edge
+   FittedIntensity k_t;
 };
 
 /** K_N and K_T by least squares: with r = √(t (1 - t/width)), p/r = K_N + c t and

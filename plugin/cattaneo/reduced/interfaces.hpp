@@ -118,8 +118,8 @@ ChordalError chordal_error(const Reduction &reduction, const Eigen::VectorXd &p,
 struct SeparateBodies
 {
    Eigen::MatrixXd K; ///< the bodies' S, one block each
-   Eigen::SparseMatrix<double, Eigen::RowMajor>
-      L; ///< u = L U: relative displacements {v; w} of the rows by displacements of all bodies
+   /// u = L U: relative displacements {v; w} of the rows by displacements of all bodies
+   Eigen::SparseMatrix<double, Eigen::RowMajor> L;
    Eigen::MatrixXd loads;             ///< one column f_k a pattern
    std::vector<LoadPattern> patterns; ///< names and controls alone
 };

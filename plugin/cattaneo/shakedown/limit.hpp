@@ -113,8 +113,8 @@ struct LimitReport
    /// The dual mechanism. Load limit: scaled to work 1 on the varying loads.
    CollapseMechanism mechanism;
    double coupling = 0; ///< of the problem
-   bool coupled =
-      false; ///< slip changes the pressures: *some* start shakes down below the limit
+   /// Slip changes the pressures: *some* start shakes down below the limit
+   bool coupled = false;
    /// The lower limit λ1 of a load limit, or a load factor that λ1 is proven not to be below:
    /// there every start shakes down. NaN: nothing is known, or it was not asked for.
    double every_start = std::numeric_limits<double>::quiet_NaN();

@@ -19,8 +19,8 @@ struct WearLaw
 {
    Eigen::VectorXd coefficient; ///< k of each node, size n, ≥ 0, in 1/pressure
    Eigen::VectorXd threshold;   ///< p_th of each node, size n, ≥ 0; none if empty
-   bool of_energy =
-      false; ///< k multiplies the energy lost by friction, not pressure times slip
+   /// k multiplies the energy lost by friction, not pressure times slip
+   bool of_energy = false;
 
    /// The same k at every node, no threshold.
    static WearLaw uniform(const ReducedProblem &problem, double coefficient);

@@ -83,8 +83,8 @@ struct WearReport
    FrictionStatus status = FrictionStatus::converged; ///< of the whole of it
    std::string message;                               ///< one sentence, empty if converged
    MarchReport last; ///< of the last cycle marched: where and why it ended, if it did
-   long marched =
-      0; ///< cycles marched to their end, also those that only look where a jump leads
+   /// Cycles marched to their end, also those that only look where a jump leads
+   long marched = 0;
    long jumps = 0; ///< over cycles that were not marched
    /** Estimate of the largest error of depth at the end that comes from jumps, 0 without jumps.
        It is the largest distance so far between this computation and one whose jumps are twice
