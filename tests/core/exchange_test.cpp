@@ -997,6 +997,7 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
    }
    write_whole("m.sti", "1 1 1.\n2 2 1.\n");
    write_whole("m.dof", "1.1\n1.2\n");
+   write_whole("again.inp", "*INCLUDE, INPUT=m.inp\n");
    for (const Mistake &m : std::vector<Mistake>{
            {"", "", "there is no *NODE"},
            {"", "*NODE\n1, 0.\n", "line 2: *NODE has 2 fields"},
@@ -1022,11 +1023,13 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
            {"", "*NODE\n1, 0., 0.\n*NSET, NSET=A, GENERATE\n1, 2000000000\n",
             "between nodes that are there"},
            {"", "*NODE\n1, 0., 0.\n*SOLID SECTION\n2.\n",
-            "is 2, must be 1: everything is per unit"},
+            "the thickness of *SOLID SECTION is 2, must be 1, as stiffness and forces are per "
+            "thickness"},
            {"", "*NODE\n1, 0., 0.\n*CLOAD\n1, 3, 1.\n", "'CLOAD1' loads node 1 direction 3"},
            {"", "*NODE\n1, 0., 0.\n2, 1., 0.\n*BOUNDARY\n2, 1, 1, 0.5\n",
             "'BOUNDARY1' moves node 2"},
-           {"", "*INCLUDE, INPUT=m.inp\n", "more than 10 deep"},
+           {"", "*INCLUDE, INPUT=m.inp\n", "is within that file itself, must name another"},
+           {"", "*INCLUDE, INPUT=again.inp\n", "more than 10 deep"},
            {"", "*INCLUDE\n", "*INCLUDE has no INPUT"},
            {"", "*PART, NAME=A\n*NODE\n1, 0., 0.\n*PART, NAME=B\n*NODE\n1, 0., 0.\n",
             "has 2 parts, A, B"},

@@ -815,7 +815,7 @@ WRONG = [
     ({"bolts": {"b": {**BOLT, "between": ["pad:2", "pad:2"]}}}, "both ends are 'pad:2'"),
     ({FLAT + "gap": "1/(s-s)"}, "key 'interfaces.flat.gap' is "),
     ({"interfaces.again": face("pad:1", "base:3")}, "carry rows of interfaces before it"),
-    ({"bodies.pad.guides": [{"on": "4"}]}, "(0, 0) is in a guide, contact nodes must be"),
+    ({"bodies.pad.guides": [{"on": "4"}]}, "reaches into the guide on '4' at (0, 0), whose nodes move as one block"),
     ({"bodies.pad.support": "3:t"}, "component 't', must be x, y or xy"),
     ({"bodies.pad.load": "T twist 3 1"}, "kind 'twist' is not one of "),
     ({**FLOOR, "interfaces.floor.motion": {"D": {"x": 0}}}, "floor.motion.D' moves nothing"),

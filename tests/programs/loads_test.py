@@ -579,7 +579,8 @@ def test_units_are_printed_by_their_names(run):
     plain = run.case(case)
     named = run.case({**case, "units": {"length": "mm", "force": "N"}})
     assert named["units"] == {"length": "mm", "force": "N"}
-    assert "forces in [N/mm]" in named.output and "N (pressing) [N/mm]" in named.output and "force at the end [N/mm]" in named.output
+    assert "forces in [N/mm]" in run.case({**case, "units": {"length": "mm", "force": "N"}}, "--verbose").output
+    assert "N (pressing) [N/mm]" in named.output and "force at the end [N/mm]" in named.output
     assert "peak pressure [N/mm²]" in named.output and "to (arc length) [mm]" in named.output
     assert named["bolts"] == plain["bolts"]
     assert "[mm]" not in plain.output and "units" not in plain.results

@@ -119,7 +119,7 @@ def test_every_study_takes_a_case_file(run):
         run.refuses(program, case({"friction": "much"}), ["key 'friction'", "a number"])
         run.refuses(program, case({"friction": -1}), ["key 'friction'", "-1"])
         run.refuses(program, case({"json": "x.json"}), ["unknown key 'json'"])
-    run.refuses("fretting", case({"pad": "ball"}), ["option --pad", "'ball'", "hertz"])
+    run.refuses("fretting", case({"pad": "ball"}), ["key 'pad'", "'ball'", "hertz"])
     run.refuses("hertz", case({"body": 3}), ["key 'body'", "3", "a string"])
 
 

@@ -21,7 +21,7 @@ VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.49
           10**30, "", "x", "3", "plane strain", "axisymmetric", "exact", "fixed", [], [1], [1, 2], [0], [-3], [1.5],
           ["a"], ["a", "b"], ["a", 1], [None], [[1]], {}, {"a": 1}]
 # Keys with objects by names, which are tried by themselves.
-NAMED = {"bodies", "interfaces", "bolts", "points"}
+NAMED = {"bodies", "interfaces", "bolts", "points", "units"}
 # How a schema may say things here: a keyword that is not read would be taken for granted.
 KEYWORDS = {"description", "$ref", "type", "enum", "const", "oneOf", "items", "minimum", "maximum", "exclusiveMinimum",
             "exclusiveMaximum", "properties", "required", "additionalProperties", "minItems", "maxItems", "minProperties", "minLength"}
@@ -83,7 +83,7 @@ class Program:
 
     def refuses(self, case):
         """The key that it does not accept as such, if there is one."""
-        found = re.match(r"error: (?:case file '.*?'(?: is of version 1, which is no longer read, |: (?:unknown )?)key '|key '(?=analysis)"
+        found = re.match(r"error: (?:case file '.*?'(?: is of version 1, which is no longer read, |: (?:unknown )?)key '|key '(?!bodies|interfaces|bolts|points|\S+' does nothing)"
                          r"|option --(?!sweep:|\S+ does nothing))([\w$-]+)", self.says(case))
         return found and found[1]
 

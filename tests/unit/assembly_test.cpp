@@ -33,6 +33,9 @@ MatrixXd by_bilinear_form(mfem::FiniteElementSpace &space,
    case Formulation::torsion:
       form.AddDomainIntegrator(torsion_integrator(space, torsion));
       break;
+   case Formulation::space:
+      ADD_FAILURE() << "bodies of MFEM are of the plane or about an axis";
+      break;
    }
    form.Assemble();
    form.Finalize();
