@@ -476,8 +476,9 @@ void DeckReader::node(const LineReader &in, const std::vector<std::string_view> 
 {
    in.require(fields.size() >= 3, "*NODE has ", fields.size(),
               " fields, must have a number and two coordinates");
-   // More are a direction, of three numbers.
-   in.require(fields.size() <= 4 || fields.size() == 7, "*NODE has ", fields.size(),
+   // More are a direction, of three numbers, or follow an empty z.
+   in.require(fields.size() <= 4 || fields.size() == 7 || fields[3].empty(), "*NODE has ",
+              fields.size(),
               " fields, must have a number, x, y and z, with points as decimal marks");
    const int number = in.integer(fields[0], "the number of a node");
    in.require(number > 0, "the number of a node is ", number, ", must be positive");
