@@ -122,7 +122,7 @@ std::array<LineEnd, 2> ends_of(const std::vector<const Segment *> &chain, bool l
    if (loop) { return {LineEnd::smooth, LineEnd::smooth}; }
    const auto bend = [&](std::size_t a)
    {
-      return a + 1 < chain.size() // else of one element
+      return a + 1 < chain.size() // else no next element: no bend
                 ? std::acos(std::clamp(
                      chain[a]->back().node.tangent.dot(chain[a + 1]->front().node.tangent),
                      -1.0, 1.0))

@@ -71,7 +71,8 @@ Eigen::Matrix3d on_supports(const Eigen::Vector3d &normal, const std::array<bool
    return frame;
 }
 
-/// The surface meets its supports, and the rows in its frames that these hold.
+/// Turns the frames of nodes onto their supports. Returns the rows, in these frames, that the
+/// supports hold.
 std::vector<int> align(ContactSurface &surface, const std::vector<int> &held)
 {
    const auto n = static_cast<int>(surface.size());

@@ -70,7 +70,7 @@ public:
    }
 };
 
-/// In space a number of each kept row's node, by its place; else none.
+/// In space numbers the nodes of the kept rows: rows at one place have one number. Else empty.
 std::vector<int> nodes_of(const std::vector<int> &keep, const DofPlaces &places)
 {
    std::vector<int> numbers;

@@ -38,8 +38,8 @@ DistributedSolver::DistributedSolver(const ElasticBody &body, const std::vector<
    delete interior_->EliminateRowsCols(rows);
    preconditioner_ = std::make_unique<mfem::HypreBoomerAMG>(*interior_);
    preconditioner_->SetPrintLevel(0);
-   // The unknown-based approach: safe in the plane and about an axis, where rotation is no null
-   // vector.
+   // AMG treats each component by itself (the unknown-based approach). Options for elasticity
+   // would take the rotation for a null vector, which is wrong about an axis.
    if (body.components() > 1)
    {
       preconditioner_->SetSystemsOptions(body.components(),

@@ -129,7 +129,7 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
    VectorXd x = start;
    for (Index stop = 0; stop >= 0;)
    {
-      // The direction toward the end, less its part against the limits that hold already.
+      // The direction toward the end, projected onto the limits that are active already.
       VectorXd way = (end - x).cwiseQuotient(unit);
       std::vector<Index> along;
       for (Index r = 0; r < count; ++r)
@@ -473,7 +473,8 @@ SmoothSolution Design::descend()
          last.y = y_of(now);
          return last;
       }
-      // The share of it that marches confirm decides about the radius, and whether to go there.
+      // The improvement found by marching over the promised one sets the radius, and decides
+      // whether the step is taken.
       const Trial &trial = at(next);
       const double kept = trial.known ? (objective(now) - objective(trial)) / promised : -1;
       const bool far =

@@ -169,7 +169,8 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
                     : now.q[i] < 0 ? NodeState::forward_slip
                                    : NodeState::backward_slip;
          }
-         // The node of the event itself is none, because the path goes on through it smoothly.
+         // The node whose event ended this step is not listed, because the path goes on
+         // smoothly with its new state.
          if (other != taken && i != trace.states[k].event)
          {
             found.push_back({k, i, taken, other});

@@ -332,9 +332,10 @@ stiffness_rule(const mfem::FiniteElement &element,
                const mfem::IsoparametricTransformation &transformation, Formulation formulation,
                bool varying_material)
 {
-   // In bodies of revolution the rule is exact on straight triangles, and on quads for any
-   // gradient of a shape function times the radii of the operator (r, in torsion r³). On
-   // elements with parallel sides it is exact for the product of two of them.
+   // In bodies of revolution the integrand is a product of two gradients of shape functions and
+   // of a power of the radius (r, in torsion r³). On straight triangles and on quads with
+   // parallel sides the rule is exact for it. On other quads it is exact for one gradient times
+   // that power.
    const int order =
       formulation == Formulation::plane
          ? 2 * transformation.OrderGrad(&element)

@@ -123,7 +123,7 @@ private:
    std::vector<int> nodes_of_one(const LineReader &in, std::string_view name);
    /// Indices of an element, or of a set of them.
    std::vector<In<std::size_t>> elements_of(const LineReader &in, std::string_view name);
-   /// From GENERATE's first, last and step, of the numbers that there are.
+   /// The numbers of GENERATE's first, last and step that exist (`has`).
    template <class Has>
    std::vector<int> generated(const LineReader &in, const std::vector<std::string_view> &fields,
                               Has has) const;
@@ -301,8 +301,7 @@ void DeckReader::begin_block(const LineReader &in)
    }
    auto made = std::make_unique<Block>(part->second);
    made->name = called;
-   // Sets of the part have the name of the instance before theirs, so that those of the
-   // assembly may be called alike.
+   // A set S of the part becomes INSTANCE.S, so that a set of the assembly may be called S too.
    const auto rename = [&](auto &sets)
    {
       auto renamed = std::move(sets);

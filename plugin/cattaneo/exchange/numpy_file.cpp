@@ -204,7 +204,7 @@ void write_npz(const std::string &file, const std::map<std::string, Eigen::Matri
       std::string common;
       for (int field : {20, 0, 0, 0, 33}) { append(common, static_cast<std::uint16_t>(field)); }
       append(common, checksum(content));
-      append(common, static_cast<std::uint32_t>(content.size())); // compressed, and not
+      append(common, static_cast<std::uint32_t>(content.size())); // as stored, and unpacked
       append(common, static_cast<std::uint32_t>(content.size()));
       append(common, static_cast<std::uint16_t>(called.size()));
       append(common, std::uint16_t(0));

@@ -520,7 +520,8 @@ private:
 void add_cards(const std::vector<Card> &cards, const std::string &file, NodalStiffness &result)
 {
    Entries entries(result);
-   // What would hold a support that moves is not in the matrix either.
+   // held: dofs that a card supports or moves. lost: those that the matrix fixes, which no load
+   // can move, because the forces that this takes are not in the matrix.
    std::set<NodeDof> held, lost;
    for (int row : result.fixed) { lost.insert(result.dofs[row]); }
    for (const Card &card : cards)

@@ -39,6 +39,7 @@ public:
 
 private:
    /// Inequalities of a node; each has a partner that is an equation while this one is strict.
+   /// "a >= 0, with b" says that b is the partner of a.
    enum Kind
    {
       gap,      ///< x_n >= 0, with p
@@ -79,7 +80,7 @@ private:
    const std::vector<FrictionBound> &bounds_; // empty: those of the equations
    std::vector<Piece> pieces_;                // of these
    /// Sense of slip. For nodes in contact it is that of their state. Nodes in separation have
-   /// one too as long as θ h holds them; 0 means that they do not move.
+   /// one too while the artificial term θ h acts as their friction; 0 means that they stick.
    VectorXd sense_;
    VectorXd h_;
    VectorXd x_, F_, away_; // b + θ away, θ = 1 at the start

@@ -44,7 +44,7 @@ bool locks(const ReducedProblem &problem, double f)
 
 /// Cones grow with friction, so bisection finds the critical value. If pressures balance each
 /// other without friction (a pin in its hole, a plate between two others), friction is not the
-/// cause. Balance alone then keeps no pressures without a load, as they do no work on nodes
+/// cause. Such pressures cannot persist without a load, because they do no work on nodes
 /// that stay closed.
 double locking_friction(const ReducedProblem &problem)
 {

@@ -117,7 +117,7 @@ RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const Contac
       by.q0 = (1 - s) * by_force;
       by.slip -= s * passed.own.cwiseProduct(by_force);
       by.stiffness = -s * passed.slip.cwiseProduct(by_force);
-      const double p = passed.p0 + s * dp, by_bound = -2 * by_root * f * p; // of f p there
+      const double p = passed.p0 + s * dp, by_bound = -2 * by_root * f * p; // by f p there
       by.friction = by_bound * p;
       by.p0 += by_bound * f * (1 - s);
       by.p1 += by_bound * f * s;

@@ -487,7 +487,8 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
    F_ = corrected - constant;
    // The state before had this error already, which is no slip.
    last_.slip_error = correction.head(n).cwiseAbs();
-   // A body that hardly resists a rotation turns by more than that, so the event comes earlier.
+   // If little resists a rotation, the correction can carry a node past its event. Then go back
+   // to the event.
    const double back = std::min(share, share_past_event());
    u_ -= back * u_rate_;
    F_ -= back * F_rate_;

@@ -281,7 +281,8 @@ OnSprings put_on_springs(Increment &at)
    VectorXd own(Z.rows()), borne;
    own << problem.A().diagonal(), problem.C().diagonal();
    const double soft = own.minCoeff(), mean = own.mean();
-   // Weak against the softest node and felt by the stiffest, or they prove nothing.
+   // Springs prove something only if they are weak against the softest node, and yet above the
+   // round-off of the stiffest one.
    // Above critical friction a body that slides may as well lock itself.
    const bool tell = soft > 1e-6 * own.maxCoeff() && s.above_critical(at.start.p) < 0;
    VectorXd anchor = at.start.displacements();
@@ -379,8 +380,8 @@ Search weak_springs(Increment &at)
 }
 
 // ---------------------------------------------------------------------------------------------
-// Motions that nothing resists: bodies that slip at every node, which only the history of their
-// slip holds in place.
+// Motions that nothing resists. A body that slips at all of its nodes has such a motion, and
+// its place follows only from the history of its slip.
 
 MatrixXd free_motions(const ReducedProblem &problem, const std::vector<NodeState> &states)
 {

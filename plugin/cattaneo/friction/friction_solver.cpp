@@ -82,8 +82,8 @@ bool find_end(Increment &at, bool thorough = true)
 }
 
 /// Displacements may be so large that round-off hides the forces. Then either a body slides
-/// away, with an imbalance that no residual shows, or nothing holds it and it could as well
-/// stay.
+/// away, with an imbalance that no residual shows, or the loads do not push it, and any place
+/// of it is a solution.
 bool runs_away(Increment &at)
 {
    return at.report.round_off > may_hide_sliding &&

@@ -95,14 +95,15 @@ double MarchRecord::external_work(const VectorXd &multipliers, const VectorXd &c
    return sum;
 }
 
-/// Adds what is lost and done on a step to `next` to all sums that have it. Returns the loss.
+/// Adds loss and work of the step to `next` to the sums of the row, the cycle and the march.
+/// Returns the loss.
 double MarchRecord::add_energies(const ContactState &next, const LoadPiece &piece, bool exact)
 {
    const VectorXd lost = frictional_loss(problem_, state_, next),
                   at_end = conjugates(problem_, next);
    const double dissipation = lost.sum(), work = external_work(next.multipliers, at_end),
                 normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
-   // 1. The row and, of a cycle, its record, which the state has.
+   // 1. Add to the row of the history and, within a cycle, to the record that the state has.
    row_.dissipation += dissipation;
    row_.friction_work += friction_work(state_, next);
    row_.external_work += work;

@@ -198,8 +198,8 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
       if (!trial.solved()) { failure = trial.increment; }
    }
    double reached = state_.time; // an equilibrium
-   // If the end is proven, each step leaves a hundredth of the remaining load, until the solver
-   // fails.
+   // If it is proven at which load equilibrium ends, each step leaves a hundredth of the
+   // remaining load, until the solver fails.
    const double unbalanced = first_unbalanced(failed);
    double left = unbalanced < failed ? 0.01 : 0.5;
    failed = unbalanced;

@@ -368,7 +368,7 @@ IncrementReport NearContacts::solve(ContactState &state, const VectorXd &multipl
             state = std::move(next);
             return judged;
          }
-         // Once more, with what round-off leaves at the end.
+         // Solve the part again, with the forces corrected by the residual of all nodes.
          way->part = start;
          if (last || !way->near->correct(next)) { return solver_.solve(state, multipliers); }
       }

@@ -277,7 +277,8 @@ VectorXd StateEquations::forces_again(const VectorXd &x)
    {
       if (x[row] != base_[row]) { changed.push_back(row); }
    }
-   // Reads whole columns from memory; for all of them that is half of K.
+   // This reads whole columns of K. A product with all of K reads one triangle, half of it, so
+   // that columns pay only if few entries changed.
    const bool few = 4 * static_cast<Index>(changed.size()) <= base_.size();
    if (base_.size() == 0 || !few)
    {

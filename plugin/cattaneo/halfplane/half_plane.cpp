@@ -523,7 +523,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
       append(all, interfaces[one.interface].first.line, *one.chain);
    }
    const Index n = all.size();
-   for (Index i = 0; i < n; ++i) // numbers of its own, bodies may have the same
+   for (Index i = 0; i < n; ++i) // its own dofs: those of bodies may coincide
    {
       all.nodes[i].dofs = {static_cast<int>(i), static_cast<int>(n + i)};
       if (components(all.formulation) == 1) { all.nodes[i].dofs[1] = -1; }

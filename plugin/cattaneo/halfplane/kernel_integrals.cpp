@@ -333,8 +333,8 @@ struct ArithmeticGeometricMean
       double a = r + s, b = distance, c = std::min(r, s);
       double factor = 1;
       do {
-         // a and b become their means. c is (a - b)/2 of the step before, and so c²/4a of the
-         // next a.
+         // a and b become their means. The next c is (a - b)/2, which is c²/4a with the new a
+         // and has no difference of large numbers then.
          differences += factor * c * c;
          const double next = 0.5 * (a + b);
          b = std::sqrt(a * b);

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 /// after the last tightening.
 struct BoltedJoint::Part
 {
-   std::vector<bool> shanks; ///< which bolts are
+   std::vector<bool> shanks; ///< of each bolt: does its shank act?
    ReducedProblem problem;   ///< of these
    LoadHistory history;      ///< multipliers of the other bolts are forces
    ContactState start;       ///< of this problem

@@ -13,7 +13,8 @@ namespace cattaneo
 namespace
 {
 
-/// Nodes of an element of Gmsh by its type; of others what follows in a file cannot be told.
+/// Number of nodes of a type of Gmsh's elements. InputError for an unknown type, because the
+/// length of its entry in the file is not known.
 int nodes_of(long type, const std::string &what)
 {
    const auto found = gmsh_types().find(type);

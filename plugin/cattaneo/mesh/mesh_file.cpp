@@ -79,7 +79,7 @@ void check_coordinate(const std::string &word, const std::string &what)
 }
 
 /// Edges of the elements, by their ends, and boundary elements, which must be among them and be
-/// there once: what an edge is counted for twice would be twice a load.
+/// there once. A load on an edge that is there twice would count twice.
 class Edges
 {
 public:

@@ -75,7 +75,8 @@ void check_one_chain(const ReducedProblem &problem)
    }
 }
 
-/// The stretches of contact of a closed line end where it begins only if it is open there.
+/// Refuses a loop that is in contact at its first and last node: a stretch of contact would be
+/// cut in two there.
 void check_seam(const ReducedProblem &problem, const ContactState &loaded)
 {
    if (problem.chains.empty() || !problem.chains[0].loop) { return; }
@@ -382,7 +383,7 @@ std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactS
       pair.tied[end - side] = true;
       pair.to = singular_positions(problem, loaded, contact, edges, pair.tied)[e];
       // One more tied node moves the singularity by about a spacing. If it was not found there,
-      // take the middle beyond the last tied node, in both solutions.
+      // take the place half a spacing beyond the last tied node, in both solutions.
       const double h = std::abs(s[end - side] - s[end]),
                    moved = side * (pair.from.position - pair.to.position);
       if (std::max(pair.from.error, pair.to.error) >= 0.5 * h || moved < 0.5 * h ||

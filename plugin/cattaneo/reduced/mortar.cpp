@@ -82,7 +82,7 @@ struct Point
    VectorXd own, facing; ///< functions of both elements
    Vector2d apart;       ///< x_s - x_m, on the outlines
    Vector2d chords;      ///< by which smooth curves would change it
-   Vector2d curved;      ///< by which it differs from that of the chords
+   Vector2d curved;      ///< apart, less its value on the chords
 };
 
 /// A point of a line's outline.
@@ -128,7 +128,7 @@ double opposite_on_curve(const ElementCurve &first, double s, const ElementCurve
       const double speed = chord.norm() * chord.norm() / chord.dot(direction);
       const double by =
          (place - Outline(other, at, false).place).dot(mean) / (speed * direction.dot(mean));
-      if (!(std::abs(at + by - t) < 0.2)) { return t; } // not near: as the elements say
+      if (!(std::abs(at + by - t) < 0.2)) { return t; } // too far: stay on the elements
       at += by;
       if (std::abs(by) < 1e-15) { break; }
    }

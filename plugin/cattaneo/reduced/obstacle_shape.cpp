@@ -55,8 +55,9 @@ void require_radius(double radius)
            ", must not be zero (a hole's is negative)");
 }
 
-/// How far a disc or a sphere is from a place on the way along `looks`, seen from its centre
-/// the place is at e: |e + g looks| = |radius|, of what is solid the side towards the body.
+/// Distance g along `looks` from a place to a disc or a sphere: |e + g looks| = |radius|, with
+/// the place at e relative to the centre. Of the two roots it is the one on the side of the
+/// body. A negative radius is that of a hole.
 template <class Vector>
 double to_ball(const Vector &e, const Vector &looks, double radius)
 {

@@ -15,7 +15,7 @@ namespace cattaneo
 
 bool ContactChain::mirrored_at(std::size_t end) const
 {
-   // A rigid obstacle is a line that goes on.
+   // A rigid obstacle (bodies[1] < 0) has no end, so only the first side must be symmetric.
    return !loop && ends[end] == LineEnd::symmetry &&
           (bodies[1] < 0 || other_ends[end] == LineEnd::symmetry);
 }

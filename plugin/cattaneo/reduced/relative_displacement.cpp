@@ -90,7 +90,7 @@ void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<Con
    const double infinite = std::numeric_limits<double>::infinity();
    std::set<NodeOfBody> slaves, taken;
    for (const ContactRow &row : rows) { slaves.insert(row.slave); }
-   // A partner that has a row of its own is determined there.
+   // A partner with a row of its own is determined by that row, so this row has no choice.
    const auto has_choice = [&](const ContactRow &row)
    { return row.partner() && slaves.count(*row.partner()) == 0; };
    for (ContactRow &row : rows)

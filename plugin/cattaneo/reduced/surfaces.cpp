@@ -20,8 +20,9 @@ std::string place_of(const CondensedBody &body, Index node)
    return place_text(body.surface.nodes[node].position, Formulation::space);
 }
 
-/// The frame between those of two nodes that face each other, of which supports hold tangents
-/// of the first or of the second one.
+/// The frame with the mean normal of two nodes that face each other. Its first tangent is that
+/// of the first node, or of the second one if supports hold tangents there (`other_is_held`),
+/// turned to be perpendicular to the normal.
 Matrix3d frame_between(const SurfaceNode &one, const SurfaceNode &other, bool other_is_held)
 {
    const Vector3d normal = (one.normal() - other.normal()).normalized();

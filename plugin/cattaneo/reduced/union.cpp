@@ -400,7 +400,8 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       block.H.row(k) += sign * together.row(k);
    }
 
-   // What moves apart meets no resistance and feels its own loads only, to round-off of S.
+   // Rigid motions of the bodies meet no resistance, and their loads do the work F on them. Set
+   // both in S and f, which have them to round-off only.
    const MatrixXd &Q = qr.Q;
    if (moving.cols() > 0 && rest > 0)
    {
@@ -473,8 +474,8 @@ void take(Block block, int components, ReducedProblem &problem)
       problem.patterns[k].q = block.f.col(column).head(m);
       problem.patterns[k].p = block.f.col(column).tail(n);
    }
-   // Of mirror images tangential and normal displacements do not feel each other. What rounding
-   // and two meshes leave of it goes.
+   // Two bodies that are mirror images have no coupling of tangential and normal displacements.
+   // Rounding and two meshes leave a small one, which is set to zero.
    const Eigen::ArrayXd own = problem.K.diagonal().cwiseSqrt();
    const auto none = [&](Index j)
    { return (problem.K.col(j).tail(n).array().abs() <= 1e-10 * own[j] * own.tail(n)).all(); };

@@ -160,14 +160,15 @@ Eigen::MatrixXd room(double limit, const Eigen::VectorXd &slip)
 }
 
 /// Makes the motions of all columns meet A Σslip + Bᵀ Σopening = 0 by the smallest changes in
-/// the norm of their cones, shortened to leave them inside. False if there is no such change.
+/// the norm of their cones. Changes are scaled down where needed, so that the motions stay
+/// inside the cones. False if there is no such change.
 bool balance(const ConeProgramme &programme, ConeMechanism &mechanism)
 {
    const Eigen::Index n = programme.nodes(), c = programme.components(), m = n * c;
    const Eigen::Index columns = programme.loads.vertices();
    const ResidualForces &residual = *programme.residual;
    const Eigen::Index rigid = residual.rigid.cols();
-   // {opening; slip} of a column's {limit; slip}
+   // The matrix from {limit; slip} of node i and column j to {opening; slip}.
    const auto motion = [&](Eigen::Index i, Eigen::Index j)
    {
       Eigen::MatrixXd G = Eigen::MatrixXd::Identity(1 + c, 1 + c);
@@ -178,7 +179,7 @@ bool balance(const ConeProgramme &programme, ConeMechanism &mechanism)
 
    // In residual forces the condition is Σslip + Mᵀ Σopening = 0 but for a rigid motion.
    std::vector<Eigen::MatrixXd> rooms; // of {limit; slip}, by pulls on {opening; slip}
-   Eigen::MatrixXd by_slip = Eigen::MatrixXd::Zero(m, m); // Mᵀ times rooms of opening by slip
+   Eigen::MatrixXd by_slip = Eigen::MatrixXd::Zero(m, m); // Mᵀ times their rows of opening
    Eigen::VectorXd by_opening = Eigen::VectorXd::Zero(n);
    Eigen::MatrixXd of_slip = Eigen::MatrixXd::Zero(m, m);
    for (Eigen::Index i = 0; i < n; ++i)

@@ -133,8 +133,8 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
    const Eigen::VectorXd weight = problem.friction.cwiseProduct(pressure);
    LeastPressure least;
 
-   // A row z > 0 with z ≥ 1 + |z f M| lifts a y that misses its condition by δ to y + δ z,
-   // which meets it. z (I - F) = 1 has a positive solution exactly if the repetition contracts.
+   // If y violates its condition by δ, y + δ z meets it, for any row z > 0 with z ≥ 1 + |z f
+   // M|. z (I - F) = 1 has a positive solution exactly if the repetition contracts.
    Eigen::VectorXd first_shift, shift;
    const Eigen::MatrixXd F = f * magnitude(M, t, weight, first_shift);
    const Eigen::RowVectorXd ones = Eigen::RowVectorXd::Ones(n);

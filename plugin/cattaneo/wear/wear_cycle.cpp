@@ -110,7 +110,7 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
 
 WearCycle WearCycles::opening(ContactState &contact, const VectorXd &depth)
 {
-   if (history_.cycle_start == 0) { return none(); } // the history has no opening part
+   if (history_.cycle_start == 0) { return none(); } // nothing before the cycle
    LoadHistory part = history_;
    part.times.conservativeResize(part.cycle_start + 1);
    part.multipliers.conservativeResize(Eigen::NoChange, part.cycle_start + 1);
