@@ -66,9 +66,10 @@ void wear_contact(Study &study)
                 "Pad: parabola, or flat with rounded edges. Both have R = 1; the unit of "
                 "length is the parabola's half-width under P = 1.",
                 {"parabola", "flat"});
-   study.option(&pad.flat, "flat",
-                "Pad: half-width of the flat part (with 0.5 the contact is 1.36 wide under P).",
-                between(0, 1));
+   study.option(
+      &pad.flat, "flat",
+      "Pad: half-width of the flat part (with 0.5 the half-width of contact is 1.36 under P).",
+      between(0, 1));
    study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.", between(0, 1));
    study.option(&friction, "friction",
                 "Coefficient of friction; default: 0.5, with --reduced that of the file.",
