@@ -63,7 +63,8 @@ class Walk:
         self.points = []
 
     def text(self, a, b):
-        return self.source[a:b].decode()
+        # libclang ends some extents within a character of several bytes.
+        return self.source[a:b].decode(errors="surrogateescape")
 
     def span(self, cursor):
         return cursor.extent.start.offset, cursor.extent.end.offset
@@ -237,7 +238,8 @@ class Walk:
         spans = [self.span(a) for a in arguments]
         # The name stands before the bracket that opens the arguments.
         opening = spans[0][0] if spans else span[1]
-        found = list(re.finditer(r"\b%s\b" % re.escape(name), self.text(span[0], opening))) if name else []
+        pattern = rb"\b%s\b" % re.escape(name).encode()
+        found = list(re.finditer(pattern, self.source[span[0]:opening])) if name else []
         if name in EXCHANGED and found:
             at = span[0] + found[-1].start()
             new = self.text(span[0], at) + EXCHANGED[name] + self.text(at + len(name), span[1])
@@ -319,11 +321,13 @@ def points(job):
 
 
 def errors(job):
-    """Lines of the file at which libclang finds an error."""
+    """Lines of the file at which libclang finds an error, and those of its notes: an error within a generic lambda
+    or a template comes from the line that calls it."""
     file, path, arguments = job
     unit = parsed(path, arguments)
-    return {(file, d.location.line - HEAD_LINES) for d in unit.diagnostics
-            if d.severity >= 3 and d.location.file and d.location.file.name == path}
+    found = [d for error in unit.diagnostics if error.severity >= 3 for d in (error, *error.children)]
+    return {(file, d.location.line - HEAD_LINES) for d in found
+            if d.location.file and d.location.file.name == path}
 
 
 def rank(point, seed, count):
@@ -342,9 +346,9 @@ def rewritten(source, edits):
             for other in rest[1:]:
                 (inner if other.start < point.end else after).append(other)
             out.append(source[start:point.start])
-            out.append(point.before.replace("@", str(point.number), 1).encode())
+            out.append(point.before.replace("@", str(point.number), 1).encode(errors="surrogateescape"))
             out.append(render(point.start, point.end, inner))
-            out.append(point.after.encode())
+            out.append(point.after.encode(errors="surrogateescape"))
             start, rest = point.end, after
         out.append(source[start:end])
         return b"".join(out)
