@@ -552,7 +552,7 @@ void bind_sensitivity(nb::module_ &m)
       .def(
          "updates",
          [](Self &self) { return self.work([](Sensitivity &all) { return all.updates(); }); },
-         "Unknowns bordered to a factor so far.");
+         "How often an unknown was bordered to a factor so far.");
 }
 
 } // namespace cattaneo::python

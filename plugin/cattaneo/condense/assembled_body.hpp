@@ -39,7 +39,8 @@ struct AssembledBody
    /// the supports leave are free, and a body is refused if contact nodes and supports together
    /// leave one, or if eliminated() rows resist them.
    bool grounded = false;
-   /// Independent of each other. Rigid motions are free where they are combinations of these.
+   /// Blocks that move rigidly, linearly independent. A rigid motion is free if it is a
+   /// combination of them.
    std::vector<BlockMotion> blocks = {};
 
    /** Rows that are not fixed and have nothing but their diagonal, or nothing at all, where

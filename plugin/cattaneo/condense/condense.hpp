@@ -7,10 +7,11 @@
 namespace cattaneo
 {
 
-/** Condenses a body to the nodes of a contact line: one factorisation, contact dofs last, one
-    solve a load pattern. If `alike` was condensed from an equal operator (entries equal to
-    1e-12 of the largest, same supports, same contact dofs in the same order, as for the second
-    of two equal bodies turned by 180° or shifted) its factor is used and nothing is factored.
+/** Condenses a body to the nodes of a contact line: one factorisation with the contact dofs
+    last, and one solve for each load pattern. If `alike` was condensed from an equal operator
+    (entries equal to 1e-12 of the largest, same supports, same contact dofs in the same order,
+    as for the second of two equal bodies turned by 180° or shifted) its factor is used and
+    nothing is factored.
 
     InputError before factoring: if the body is not sound (AssembledBody::validate), if a dof of
     the line has another component or another place than its node, or if a load displaces a
@@ -20,8 +21,9 @@ namespace cattaneo
     the trace (CondensedBody::held). */
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        const CondensedBody *alike = nullptr);
-/// The same in space, to the nodes of a surface. InputError also if a support that holds one or
-/// two components of a node meets the surface there at neither 0 nor 90 degrees, to 10.
+/// The same in space, to the nodes of a surface. InputError also if a support holds one or two
+/// components of a node, and its angle to the surface is more than 10 degrees away from both 0
+/// and 90.
 CondensedBody condense(const AssembledBody &body, const ContactSurface &surface,
                        const CondensedBody *alike = nullptr);
 

@@ -47,10 +47,10 @@ public:
    /// across the held direction. Then w is its opening along the normal of the line, and p the
    /// force along that normal, part of which the support carries. See directions().
    std::vector<int> held;
-   /// Of a plane body: forces are those of this thickness. See thicken().
+   /// Thickness of a plane body, for which all forces are. See thicken().
    double thickness = 1;
-   /// Displacements {x; y} of contact nodes per unit multiplier, 2n × patterns: of held
-   /// components that loads move. Empty where all that is held is at rest.
+   /// Prescribed displacements of held components per unit multiplier: {x; y} of all contact
+   /// nodes, 2n × patterns, zero elsewhere. Empty if no load moves a held component.
    Eigen::MatrixXd moved;
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
    Eigen::MatrixXd H;   ///< loads by loads with the contact clamped (see ReducedProblem::H)

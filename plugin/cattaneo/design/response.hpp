@@ -90,8 +90,9 @@ public:
    Response multiplier(std::size_t state, const std::string &pattern) const;
    /// Conjugate of a load: the displacement of a force, the reaction of a displacement.
    Response conjugate(std::size_t state, const std::string &pattern) const;
-   /// Change of force over change of displacement of a pattern between two states, whichever of
-   /// them is its multiplier. InputError if the displacement does not change.
+   /// Change of force over change of displacement of a pattern between two states. For a
+   /// pattern of displacement the force is its reaction. InputError if the displacement does
+   /// not change.
    Response secant_stiffness(std::size_t from, std::size_t to,
                              const std::string &pattern) const;
 

@@ -115,7 +115,7 @@ public:
 
    /// Dense factorisations so far, and unknowns bordered to them instead.
    long factorisations() const;
-   /// Unknowns bordered to a factor so far.
+   /// How often an unknown was bordered to a factor so far.
    long updates() const;
 
 private:

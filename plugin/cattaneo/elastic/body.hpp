@@ -76,14 +76,15 @@ public:
    /// A body can be moved, not copied.
    ElasticBody &operator=(ElasticBody &&) = default;
 
-   /// No displacement of this component on the nodes of a boundary part (the axis may twist).
+   /// No displacement of this component on the nodes of a boundary part. In torsion edges on
+   /// the axis are left out, because the axis may twist.
    void fix(const BoundaryPart &part, int component);
    /// No displacement of this component at the node of the space nearest to (x, y).
    void fix_node(double x, double y, int component);
    /// No displacement at these true dofs of the space (of this rank), as
    /// mfem::FiniteElementSpace::GetEssentialTrueDofs lists them. InputError for a number that
-   /// is none or is there twice, as in a boundary marker (that goes into fix(marker,
-   /// component)).
+   /// is no true dof or is listed twice, as in a boundary marker (use fix(marker, component)
+   /// for that).
    void fix(const mfem::Array<int> &true_dofs);
 
    /// Forces on the true dofs of the space (of this rank), in axisymmetry on the whole

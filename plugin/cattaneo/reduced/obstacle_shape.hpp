@@ -12,10 +12,10 @@ namespace cattaneo
 // the node's normal, negative where the body overlaps it. InputError that names a node that
 // faces nothing, and points or a radius that are none.
 
-/// A polyline through two points or more, of which the first and the last side go on without
-/// end: of two points a straight line. A node that looks along the obstacle to 5 degrees, and
-/// meets no other side of it, is open, however round-off turns its normal: its gap is that of
-/// one at the same distance that leans towards the obstacle by those 5 degrees.
+/// A polyline through two points or more, whose first and last sides go on without end (two
+/// points: a straight line). A node whose normal is parallel to a side within 5 degrees, and
+/// meets no other side, stays open, however round-off turns its normal. Its gap is that of a
+/// node at the same distance whose normal is turned towards the obstacle by those 5 degrees.
 Eigen::VectorXd gaps_to_polyline(const InterfaceReport &nodes,
                                  const std::vector<Eigen::Vector2d> &points);
 
@@ -23,8 +23,8 @@ Eigen::VectorXd gaps_to_polyline(const InterfaceReport &nodes,
 Eigen::VectorXd gaps_to_circle(const InterfaceReport &nodes, const Eigen::Vector2d &centre,
                                double radius);
 
-/// In space a plane through a point; `normal` of any length and sign. A node that looks along
-/// it faces nothing.
+/// In space a plane through a point; `normal` of any length and sign. A node whose normal is
+/// parallel to the plane faces nothing.
 Eigen::VectorXd gaps_to_plane(const ContactSurface &surface, const Eigen::Vector3d &point,
                               const Eigen::Vector3d &normal);
 /// In space a sphere, or with a negative radius a hollow of that radius.

@@ -39,7 +39,7 @@ struct ContactChain
     reduced problem is. set_friction_law() computes them from tractions. */
 struct FrictionLaw
 {
-   Eigen::MatrixX2d forward;  ///< at least one point; p grows from above zero
+   Eigen::MatrixX2d forward;  ///< one point or more; p > 0, strictly increasing
    Eigen::MatrixX2d backward; ///< the same
 
    /// The largest slope of both.
@@ -101,7 +101,7 @@ struct ReducedProblem
    /// reaches the rim is cut off, see cut_off_contact(). On lines the ends of the chains tell
    /// this.
    std::vector<Eigen::Index> rim;
-   /// Rigid motions {v; w} that nothing resists, as they were imposed on the stiffness, in
+   /// Rigid motions {v; w} that nothing resists (K times them is zero to round-off), in
    /// orthonormal columns: (c+1)·n × k, k = 0 if the bodies are held. complete() finds them for
    /// a problem made by hand, and a file must state all of them. A march does not look for
    /// them.

@@ -42,7 +42,7 @@ struct Method2Estimate
    std::string message; ///< what was found, in one sentence
    double low = 0;      ///< the choice that needs the least friction
    double high = 0;     ///< the choice that needs the most
-   double natural = 0;  ///< the choice at the same relative height in its range at every node
+   double natural = 0;  ///< r at the same fraction of its permissible range at every node
    Eigen::VectorXd natural_residual; ///< that choice, size n
    Eigen::VectorXd residual_low;  ///< lower end of the permissible range, size n (figure 4.9)
    Eigen::VectorXd residual_high; ///< upper end

@@ -77,9 +77,9 @@ struct LowerLimitReport
    Counters counters; ///< of the programme behind it
 };
 
-/// @a upper is the report of load_limit for the same problem. @a apart are nodes that are set
-/// apart; they matter to a bound only, as two nodes and uncoupled contacts have better results.
-/// InputError if one does not exist.
+/// @a upper is the report of load_limit for the same problem. Slip at the nodes @a apart is not
+/// excluded (see @ref LowerLimitReport). They are used for the bound of three or more coupled
+/// nodes only. InputError if a node of @a apart does not exist.
 LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upper,
                              const LimitSettings &settings = {}, const NodeList &apart = {});
 

@@ -32,9 +32,9 @@ struct WearLaw
    void validate(const ReducedProblem &problem) const;
 };
 
-/// Depth that each node (size n, ≥ 0) loses over an increment. It is k ½ (p₀ + p₁)|Δv|, from
-/// where the node begins to slip or reverses. With a threshold only the part of the pressure
-/// line above it counts.
+/// Depth that each node (size n, ≥ 0) loses over an increment. It is k ½ (p₀ + p₁)|Δv|, counted
+/// from the point in the increment at which the node begins to slip or reverses. With a
+/// threshold, (p - p_th)₊ takes the place of p.
 Eigen::VectorXd worn_depth(const ReducedProblem &problem, const WearLaw &law,
                            const ContactState &before, const ContactState &after);
 

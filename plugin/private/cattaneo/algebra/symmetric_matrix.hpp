@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 
 /// Passes over large matrices and their transposes, block by block. Entry by entry, one of the
-/// two would be read across its columns, which takes several times as long.
+/// two would be read across its columns, which is several times slower.
 namespace cattaneo
 {
 
-/// The upper triangle becomes that of the lower one.
+/// Copies the lower triangle into the upper one.
 void mirror_lower(Eigen::Ref<Eigen::MatrixXd> M);
 
 /// Largest |A - Bᵀ|, NaN if one of the differences is; 0 without entries. Two matrices may be

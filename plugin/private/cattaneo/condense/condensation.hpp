@@ -31,19 +31,19 @@ struct Condensation
 /// ReducedProblem::H, signs and symmetry, from the energies of clamped loads.
 Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped);
 
-/// Positions that are not held, of so many.
+/// The numbers from 0 to count - 1 that are not in `held`.
 std::vector<int> others(const std::vector<int> &held, Eigen::Index count);
 
-/// Dofs of a trace, {x; y} of all its nodes (in space {x; y; z}, torsion: the twist), and which
-/// of them supports hold: no part of the body's trace.
+/// Dofs of all contact nodes, {x; y} (in space {x; y; z}, torsion: the twist), and which of
+/// them supports hold. Held dofs are not part of the condensed stiffness.
 struct ContactDofs
 {
    std::vector<int> all;
    std::vector<int> held; ///< positions in `all`, increasing
-   /// What loads move them by, `all` × loads; empty where all that is held is at rest.
+   /// Displacements by unit loads, `all` × loads. Empty if no load moves a held dof.
    Eigen::MatrixXd moved = {};
-   /// Those of `held` in whose plane, across their component, a load moves anything: it is no
-   /// plane of symmetry, though the node itself may be at rest.
+   /// Those of `held` in whose plane (the one normal to their component) a load moves a dof. It
+   /// is then no plane of symmetry, though the node itself may be at rest.
    std::vector<int> in_moved_plane = {};
 
    /// One of them is moved. InputError that names the node for a body of torsion or in space.

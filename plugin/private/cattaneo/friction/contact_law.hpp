@@ -88,7 +88,8 @@ private:
 FrictionBound friction_bound(const ReducedProblem &problem, Eigen::Index i);
 /// The bounds of all nodes.
 std::vector<FrictionBound> friction_bounds(const ReducedProblem &problem);
-/// Bounds of Coulomb's law. With ReducedProblem::friction they are upper limits of any law.
+/// Bounds of Coulomb's law. With ReducedProblem::friction, the steepest slopes, no law of the
+/// problem exceeds them.
 std::vector<FrictionBound> friction_bounds(const Eigen::VectorXd &coefficients);
 
 /// One node at the end of an increment. Its own stiffness turns lengths into forces.

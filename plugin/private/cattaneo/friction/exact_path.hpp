@@ -105,8 +105,8 @@ private:
    StateEquations equations_;        // with the bounds of rates
    Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
    Eigen::VectorXd u_rate_, F_rate_; // over the rest of the way
-   /// Where the rates hold with the states of the equations, as long as these stay: the loads
-   /// of the state and of the end of the way.
+   /// Loads at the start and at the end of the way for which u_rate_ and F_rate_ were computed.
+   /// They hold there as long as no node changes its state.
    struct
    {
       Eigen::VectorXd from, to;

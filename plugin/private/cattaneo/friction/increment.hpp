@@ -17,7 +17,7 @@ struct OnSprings
    bool bear_nothing = false;         ///< that spring bears nothing: the state is an answer
 };
 
-/// Why an increment has no end, if that was found out.
+/// Why an increment has no solution, if known.
 struct Cause
 {
    Mechanism mechanism;

@@ -5,8 +5,8 @@
 namespace cattaneo
 {
 
-/// Estimated error of the loss of a march from `start`, compared with that of its exact path.
-/// `losses` and `report` are those of the march.
+/// Error of the loss of a march from `start`. It is a bound where there is an exact path to
+/// compare with, else an estimate. `losses` and `report` are those of the march.
 LossError loss_error(FrictionSolver &solver, const LoadHistory &history,
                      const ContactState &start, const MarchSettings &settings,
                      const Losses &losses, const MarchReport &report);

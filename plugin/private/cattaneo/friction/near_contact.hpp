@@ -78,15 +78,15 @@ public:
    Index node(Index near) const { return nodes_[near]; }
    /// The part's multipliers, from those of the whole problem.
    Eigen::VectorXd loads(const Eigen::VectorXd &multipliers) const;
-   /// Makes up for what round-off leaves at a state. False, and nothing done, if nodes that are
-   /// left out bear something there.
+   /// Corrects the loads by the round-off of the near problem at a state. Returns false, and
+   /// changes nothing, if nodes that are left out carry forces there.
    bool correct(const ContactState &whole);
-   /// The same, and the near nodes' part of the state.
+   /// The same, and returns the near nodes' part of the state.
    std::optional<ContactState> part(const ContactState &whole);
-   /// How often it was corrected: the loads hold for the last state, and what comes of its
-   /// part.
+   /// Number of calls of correct(). The loads are those of the last one, and hold for its state
+   /// and for states that follow from it.
    long parts() const { return parts_; }
-   /// The state after `before` that has the part.
+   /// The state of all nodes that follows `before` if the near nodes' state is `part`.
    ContactState whole(const ContactState &before, const ContactState &part) const;
    /// Made with these settings when first asked for.
    FrictionSolver &solver(const FrictionSettings &settings);
@@ -100,8 +100,8 @@ private:
    const int eighths_;
    long parts_ = 0;
    std::vector<Index> nodes_, rows_;        // in the whole problem
-   std::vector<Index> slips_;               // of the rows those along the contact
-   std::vector<Index> place_;               // of the rows, among those that are left
+   std::vector<Index> slips_;               // those of rows_ that are tangential
+   std::vector<Index> place_;               // of each row of rows_ in the near problem
    std::vector<Eigen::VectorXd> condensed_; // of each pattern, see FarFirst::condense()
    std::shared_ptr<ReducedProblem> problem_;
    std::optional<FrictionSolver> solver_;
@@ -109,7 +109,7 @@ private:
 
 /** Increments of a solver's problem without the nodes that are far from touching, if most nodes
     are. The number of nodes follows from the state at the start. It grows if others come to
-    touch, and all nodes are taken if that does not work. Every state is judged in the whole
+    touch, and all nodes are used if that fails too. Every state is checked in the whole
     problem. */
 class NearContacts
 {
@@ -119,18 +119,18 @@ public:
    /// As FrictionSolver::solve().
    IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
 
-   /// The way of a state to another one in a near problem, or none.
+   /// Near problem with which an increment is tried, and the state of its nodes at the start.
    struct Way
    {
       std::shared_ptr<NearContact> near;
       ContactState part;
    };
-   /// Fewest eighths of the nodes for an increment from there; 0: only all nodes will do.
+   /// Fewest eighths of the nodes for an increment from that state; 0: all nodes are needed.
    int eighths(const ContactState &state);
-   /// None if so few do not work.
+   /// Empty if so few nodes do not suffice.
    std::optional<Way> set_out(const ContactState &state, int eighths);
-   /// Eighths that have the nodes that lie beyond their gaps and are not among those given; 0:
-   /// there are none.
+   /// Eighths that include all nodes which have closed their gaps and are not among the given
+   /// eighths; 0: there are no such nodes.
    int touched(const ContactState &state, int eighths) const;
 
    const ReducedProblem &problem() const { return problem_; }

@@ -94,12 +94,12 @@ public:
 
    /// K x
    Eigen::VectorXd forces(const Eigen::VectorXd &x) const { return times_K_(x); }
-   /// K x, with only the columns of K where x is not what it was in an earlier call since
-   /// begin(), if these are few.
+   /// K x. If few entries of x changed since an earlier call (after begin()), only their
+   /// columns are read.
    Eigen::VectorXd forces_again(const Eigen::VectorXd &x);
 
    long factorisations() const { return factorisations_; }
-   /// Unknowns bordered.
+   /// How often an unknown was bordered to the factor.
    long updates() const { return updates_; }
 
 private:
@@ -151,7 +151,8 @@ private:
    std::vector<NodeState> states_;
    std::vector<bool> pinned_;
    Eigen::VectorXd base_, base_forces_; // forces_again(): of a call before
-   Eigen::VectorXd constant_; // of each row's equation, what of the bound does not go with p
+   Eigen::VectorXd
+      constant_; // of each row: the part of its friction bound that does not grow with p
 
    DenseLU lu_;                        // of M₀
    std::vector<Equation> slots_;       // of M₀: the unknown of a slot is x[row]

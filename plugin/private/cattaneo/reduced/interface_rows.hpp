@@ -11,7 +11,7 @@ namespace cattaneo
 struct Side
 {
    int body = -1;
-   ContactLine line; ///< its frames along what supports hold
+   ContactLine line; ///< its frames turned to the directions that supports hold
    std::vector<int> nodes;
 };
 
@@ -19,7 +19,7 @@ struct Side
 struct MetInterface
 {
    const Interface *given = nullptr;
-   std::string what; ///< begins sentences about it
+   std::string what; ///< begins messages about it
    Side slave, master;
    bool of_second = false; ///< the slave is Interface::second
    Mortar mortar;

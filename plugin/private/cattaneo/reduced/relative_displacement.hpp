@@ -31,7 +31,7 @@ struct ContactRow
    /// choose_dependents().
    std::array<NodeOfBody, 3> dependent{slave, slave, slave};
 
-   /// The node that faces the slave if it sees that one alone, as it is.
+   /// The facing node if the slave is paired with just one node, with weight 1; else null.
    const NodeOfBody *partner() const;
 };
 

@@ -32,10 +32,10 @@ struct Block
 Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
              const Reduction::PatternIndex &index, const std::vector<LoadPattern> &patterns);
 
-/// What is left of a block in a problem, without gaps and friction; `components` of a node.
+/// Makes a reduced problem of the block, without gaps and friction, with `components` a node.
 void take(Block block, int components, ReducedProblem &problem);
 
-/// Numbers of the bodies' patterns among all, which grow by those that are new.
+/// Index of each body's patterns in `all`. Appends those that are new.
 Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
                              std::vector<LoadPattern> &all);
 
@@ -43,7 +43,7 @@ Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
 Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int> &index,
                                Eigen::Index count);
 
-/// What the bodies of a group may do together without resistance, orthonormal columns in U.
+/// Motions of the bodies of a group together that nothing resists, as orthonormal columns in U.
 Eigen::MatrixXd common_motions(const std::vector<CondensedBody> &bodies,
                                const std::vector<int> &group, const RelativeDisplacement &map);
 /// Free motions of all bodies without the directions of Y, which they span, as columns in U.

@@ -110,20 +110,22 @@ ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
 ConeSolution solve_by_interior_points(const ConeProgramme &programme,
                                       const ConeSettings &settings, const ConeStart &start);
 
-/// How round-off counts that the forces may have suffered.
+/// How the round-off of the forces is counted.
 enum class Rounding
 {
    ignored,
-   against, ///< at its largest and to the worse side: what is admissible all the same is proven
-   in_favour ///< to the better side: what violates all the same does so by more than round-off
+   against,  ///< largest, to the unsafe side: forces that are admissible even so are proven to
+             ///< be
+   in_favour ///< to the safe side: forces that violate even so do it by more than round-off
 };
 
-/// Forces of the stuck contact with a slip, in the columns of the loads.
+/// Contact forces at each load vertex (column) if the contact is stuck after a given residual
+/// slip.
 struct SlippedForces
 {
    Eigen::MatrixXd q;                ///< tangential forces
    Eigen::MatrixXd p;                ///< normal forces
-   Eigen::MatrixXd q_error, p_error; ///< what round-off may have done to them; 0 if ignored
+   Eigen::MatrixXd q_error, p_error; ///< bounds of their round-off; 0 if ignored
 };
 
 SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &loads,
