@@ -305,7 +305,7 @@ def test_bodies_have_a_thickness():
     one, five = cattaneo.reduce(thin, ground).problem, cattaneo.reduce(thick, deep).problem
     assert five.K == pytest.approx(5 * one.K, abs=1e-9 * abs(five.K).max())
     assert five.weights == pytest.approx(5 * one.weights)
-    with pytest.raises(cattaneo.InputError, match="becomes -1 times as thick, must be a positive, finite number of times"):
+    with pytest.raises(cattaneo.InputError, match="factor of the thickness is -1, must be positive and finite"):
         thick.thicken(-1)
     assert thin.moved.size == 0
 

@@ -250,7 +250,7 @@ def test_a_shape_says_what_is_wrong_with_it():
         design.design(rounded_pad(lambda x: (np.full(33, x[1]), np.zeros((33, 2)))), [0, 0])
     with pytest.raises(ZeroDivisionError):
         design.design(rounded_pad(lambda x: 1 / 0), [0, 0])
-    with pytest.raises(ValueError, match="not linear"):
+    with pytest.raises(ValueError, match="must be linear in them"):
         design.limit_curvature(rounded_pad(), -1, 1)
 
 

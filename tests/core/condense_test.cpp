@@ -317,7 +317,8 @@ TEST(CondenseMatrix, BodiesHaveAThickness)
    EXPECT_EQ(thick.weights, 5 * thin.weights);
    two.thicken(0.4); // to 2: the thinner one counts
    EXPECT_LT((reduce(one, two, pairs).problem.weights - 2 * thin.weights).norm(), 1e-13);
-   expect_input_error([&] { one.thicken(0); }, "becomes 0 times as thick, must be a positive");
+   expect_input_error([&] { one.thicken(0); },
+                      "factor of the thickness is 0, must be positive");
 }
 
 // A contact node on a line that leans by 30 degrees: 30 from what is held along x, 60 from what
@@ -977,7 +978,7 @@ TEST(CondenseMatrix, WhatOnlyRoundOffHoldsMustNotBeLoaded)
    EXPECT_NEAR(condensed(1e-8).H(0, 0), 1e8 + 1, 1e8 * 1e-7);
    expect_input_error([&] { condensed(1e-14); },
                       "condense: load 'pull' moves the node (3, 0) by 1");
-   expect_input_error([&] { condensed(1e-14); }, "at most 0.001 is allowed");
+   expect_input_error([&] { condensed(1e-14); }, "must be at most 0.001");
 }
 
 TEST(CondenseMatrix, NeighboursAreAtDifferentPlaces)

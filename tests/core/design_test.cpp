@@ -413,7 +413,7 @@ TEST(Design, RefusesAShapeWithOtherDerivatives)
    expect_input_error([&] { design(problem, Eigen::Vector2d(0.5, 1)); },
                       "the shape has 3 gaps");
    problem.shape = good;
-   expect_input_error([&] { limit_curvature(problem, -1, 1); }, "not linear");
+   expect_input_error([&] { limit_curvature(problem, -1, 1); }, "must be linear in them");
    EXPECT_EQ(problem.with(Eigen::Vector2d(0.25, 2)).gap[0], 0.75 * 0.75);
 }
 

@@ -192,7 +192,8 @@ TEST_F(Exchange, AbaqusSupportsOnContactNodesAreHeldThere)
    // It cannot be moved: its forces are lost.
    write_whole("supported.inp",
                read_whole(folder + "abaqus.inp") + "*STEP\n*BOUNDARY\n11, 1, 1, 0.1\n");
-   expect_input_error([] { read_stiffness("supported.mtx"); }, "must be free in the step");
+   expect_input_error([] { read_stiffness("supported.mtx"); },
+                      "must be without support in the step");
 }
 
 /// FORMAT=COORDINATE: row, column and value, rows by the numbers of nodes.
@@ -949,7 +950,7 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
            {"m.mtx", "*USER ELEMENT, NODES=1\n** ELEMENT NODES\n** 1\n1, 2, 6\n",
             "direction 6 of node 1, must be 1 or 2"},
            {"m.npy", "nonsense", "is no NumPy array"},
-           {"m.npz", "nonsense", "is no whole zip archive"},
+           {"m.npz", "nonsense", "is no complete zip archive"},
         })
    {
       write_whole(m.file, m.content);

@@ -256,8 +256,7 @@ TEST(HalfPlaneField, BadInputIsNamed)
                       "there are 3 forces, must be finite and two for each of the 9 nodes");
    const ContactLine round =
       condense(body, std::vector<double>{0, 1}, 2, Formulation::axisymmetric).line;
-   expect_input_error([&] { HalfPlaneField(body, round, VectorXd::Ones(4)); },
-                      "must be of the plane");
+   expect_input_error([&] { HalfPlaneField(body, round, VectorXd::Ones(4)); }, "must be plane");
 }
 
 } // namespace

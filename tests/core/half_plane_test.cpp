@@ -978,7 +978,7 @@ TEST(HalfPlane, BadInputIsNamed)
    const ContactLine round = straight_line(uneven, 2, Formulation::axisymmetric);
    refused(bad, round, "along the axis");
    bad.normal = {0, -1};
-   refused(bad, round, "for the plane alone");
+   refused(bad, round, "must be false there");
    bad = good;
    bad.material.state = PlaneState::stress;
    refused(bad, round, "must be of plane strain");

@@ -723,7 +723,7 @@ TEST(ContactLine, AnEdgeNextToNothingBesideOthersIsRefused)
          body.fix(3, 0);
          body.fix(3, 1);
          expect_input_error([&] { condense(body, contact_line(body, 1)); },
-                            "contact line: the node at (0.5, 0)");
+                            "the node at (0.5, 0) to its neighbours");
       }
    }
    // A grading reaches any length step by step.

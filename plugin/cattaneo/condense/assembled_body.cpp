@@ -125,8 +125,8 @@ void AssembledBody::validate() const
          component_name(places.formulation, places.component[dof]), " of the node ",
          places.called(dof), ", holds nothing but its diagonal ", K.diagonal(dof),
          ", as that of a support which was eliminated: pass the stiffness as assembled and "
-         "fix the row, or say that supports are in it (supports_left_out of a stiffness on "
-         "nodes, else grounded), such rows are fixed then");
+         "fix the row, or say that its supports are eliminated already (supports_left_out of "
+         "NodalStiffness, or AssembledBody::grounded), such rows are fixed then");
    }
    if (const auto alone = alone_on_a_slope(stiffness, places, fixed))
    {
@@ -167,8 +167,9 @@ void AssembledBody::validate() const
               size, ", all finite and not all zero, and its force be finite");
       for (int dof = 0; dof < size; ++dof)
       {
-         require(held[dof] || block.motion[dof] == 0, "assembled body: a block moves dof ", dof,
-                 ", which is not fixed, it must be");
+         require(held[dof] || block.motion[dof] == 0,
+                 "assembled body: a guided block moves dof ", dof,
+                 ", which must be among the fixed dofs");
       }
       const auto same = [&](const BodyLoad &load)
       { return load.name == block.load && load.control == Control::force; };

@@ -46,8 +46,8 @@ std::vector<int> align(ContactLine &line, const ContactDofs &contact)
    return rows;
 }
 
-/// The frame of a node that has the axes which supports hold. A surface that meets a support at
-/// neither 0 nor 90 degrees, to 10 degrees, is refused.
+/// The frame of a node that has the axes which supports hold. A support is refused if its angle
+/// to the surface is more than 10 degrees away from both 0 and 90.
 Eigen::Matrix3d on_supports(const Eigen::Vector3d &normal, const std::array<bool, 3> &held,
                             const std::string &where)
 {
@@ -61,7 +61,7 @@ Eigen::Matrix3d on_supports(const Eigen::Vector3d &normal, const std::array<bool
    const bool across = std::abs(along) <= most;
    require(across || normal.cross(e).norm() <= most, "condense: a support holds ",
            count == 1 ? "one component" : "two components", " of the contact node at ", where,
-           ", and the surface meets it at neither 0 nor 90 degrees, to 10");
+           ", and its angle to the surface must be within 10 degrees of 0 or 90");
    const Eigen::Vector3d n = across ? Eigen::Vector3d((normal - along * e).normalized())
                                     : Eigen::Vector3d(std::copysign(1.0, along) * e);
    // Along the normal: the two tangents are alike to the support.

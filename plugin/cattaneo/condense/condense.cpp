@@ -148,10 +148,10 @@ void require_held(const FactoredStiffness &of, const AssembledBody &body, const 
    size.maxCoeff(&most);
    const double left = eps * (K.cwiseAbs() * size).maxCoeff();
    require(!(left > 1e-3 * all), "condense: load '", load.name, "' moves the node ",
-           body.places.called(static_cast<int>(most)), " by ", far, " per unit, which leaves ",
-           left / all,
-           " of its forces to round-off, at most 0.001 is allowed: something must hold what it "
-           "pushes (a part on a single node is free to turn)");
+           body.places.called(static_cast<int>(most)), " by ", far,
+           " per unit, so far that a share of ", left / all,
+           " of its forces is round-off, must be at most 0.001: support the part that it "
+           "pushes (a part held by a single node can turn)");
 }
 
 /// Loads of a body whose contact is clamped, and what is kept of them for recovery.

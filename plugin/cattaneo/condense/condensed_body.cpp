@@ -86,10 +86,11 @@ double CondensedBody::error_estimate()
 void CondensedBody::thicken(double times)
 {
    require(times > 0 && std::isfinite(times) && line.formulation == Formulation::plane,
-           "condensed body: it becomes ", times, " times as thick, ",
+           "condensed body: the factor of the thickness is ", times,
            line.formulation == Formulation::plane
-              ? "must be a positive, finite number of times"
-              : "about an axis forces are those of the whole circumference");
+              ? ", must be positive and finite"
+              : ", but only plane bodies have a thickness: forces about an axis are those of "
+                "the whole circumference");
    thickness *= times;
    S *= times;
    H *= times;

@@ -62,9 +62,9 @@ void check_spacing(const ContactLine &line, const LineChain &chain)
       const Eigen::Vector2d at = place(k + 1);
       const double before = (at - place(k)).norm(), after = (place(k + 2) - at).norm();
       require(std::min(before, after) >= ContactLine::least_ratio * std::max(before, after),
-              "contact line: the node at ", at, " is ", before, " behind its neighbour and ",
-              after, " before the next, the ratio must be at least ", ContactLine::least_ratio,
-              ": merge the nodes that were to be one");
+              "contact line: the distances from the node at ", at, " to its neighbours are ",
+              before, " and ", after, ", the smaller must be at least ",
+              ContactLine::least_ratio, " times the larger: merge nodes that should coincide");
    }
 }
 

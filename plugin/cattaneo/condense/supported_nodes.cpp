@@ -108,7 +108,7 @@ void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComp
               component_name(line.formulation, c), " of the contact node at ", node.position,
               " is fixed, and the line meets it at ",
               0.1 * std::round(10 * (axis == c ? degrees : 90 - degrees)),
-              " degrees, must be 0 or 90, to ", LineChain::smooth_turn);
+              " degrees, must be 0 or 90 within ", LineChain::smooth_turn, " degrees");
       if (!onto_axis) { continue; }
       const double sign = std::copysign(1.0, node.tangent[axis]);
       node.tangent.setZero();

@@ -657,12 +657,13 @@ std::vector<Parameters> gap_variables(const MatrixXd &G)
 
 void limit_curvature(DesignProblem &problem, double least, double most)
 {
-   require(least <= most, "curvature limits: at least ", least, " and at most ", most);
+   require(least <= most, "curvature limits: the lower limit is ", least, " and the upper ",
+           most, ", the lower must not be the larger");
    const ReducedProblem &of = problem.problem;
    const auto count = static_cast<Index>(problem.variables.size());
    require(count > 0, "curvature limits: the design has no variables yet");
-   require(!problem.shape, "curvature limits: of a gap that is not linear in its variables "
-                           "they are not linear either");
+   require(!problem.shape, "curvature limits: the gap of this design depends on its variables "
+                           "nonlinearly (`shape`), must be linear in them");
    require(of.arc_length.size() == of.nodes(), "curvature limits: ", of.arc_length.size(),
            " positions along the line for ", of.nodes(), " nodes");
    for (const ContactChain &chain : of.chains)

@@ -167,7 +167,8 @@ Response Responses::worn_volume(std::size_t from, std::size_t to) const
 Response Responses::slip(std::size_t k, Index node, int component) const
 {
    const VectorXd u = state(k).displacements();
-   require(component >= 0, "responses: tangential component ", component);
+   require(component >= 0, "responses: tangential component ", component,
+           ", must be 0 or more");
    return entry(k, &StateWeights::displacements, u, unit(u.size(), row(node, component)));
 }
 Response Responses::opening(std::size_t k, Index node) const
@@ -178,7 +179,8 @@ Response Responses::opening(std::size_t k, Index node) const
 Response Responses::shear(std::size_t k, Index node, int component) const
 {
    const VectorXd F = state(k).forces();
-   require(component >= 0, "responses: tangential component ", component);
+   require(component >= 0, "responses: tangential component ", component,
+           ", must be 0 or more");
    return entry(k, &StateWeights::forces, F, unit(F.size(), row(node, component)));
 }
 Response Responses::normal_force(std::size_t k, Index node) const
@@ -221,7 +223,8 @@ Response Responses::resultant(std::size_t k, const VectorXd &arm, int component)
 }
 Response Responses::shear_resultant(std::size_t k, const VectorXd &arm, int component) const
 {
-   require(component >= 0, "responses: tangential component ", component);
+   require(component >= 0, "responses: tangential component ", component,
+           ", must be 0 or more");
    return resultant(k, arm, component);
 }
 Response Responses::normal_resultant(std::size_t k, const VectorXd &arm) const

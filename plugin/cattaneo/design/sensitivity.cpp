@@ -76,7 +76,8 @@ double TraceChange::of(const Response &response) const
       add(weight.conjugates, conjugates);
       add(weight.loss, loss);
       require(weight.worn.size() == 0 || worn.cols() > 0,
-              "sensitivity: a response of wear, of which the trace has no law");
+              "sensitivity: the response depends on wear, but the trace was recorded without a "
+              "wear law");
       add(weight.worn, worn);
    }
    return sum;
@@ -219,8 +220,9 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
    {
       traced.state.validate(problem);
       require(traced.point >= 0 && traced.point + 1 < trace.history.times.size(),
-              "sensitivity: a state after point ", traced.point, " of a history of ",
-              trace.history.times.size(), " points");
+              "sensitivity: a state follows point ", traced.point,
+              " of the history, must follow one from 0 to ",
+              static_cast<Index>(trace.history.times.size()) - 2);
    }
    for (const StiffnessChange &change : stiffness)
    {
@@ -634,7 +636,8 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
          s.visit_loss(k, weight.loss, x, weighted(weight.loss));
       }
       require(weight.worn.size() == 0 || s.wears(),
-              "sensitivity: a response of wear, of which the trace has no law");
+              "sensitivity: the response depends on wear, but the trace was recorded without a "
+              "wear law");
       if (size(weight.worn, n) && k > 0)
       {
          s.visit_worn(k, weight.worn, x, weighted(weight.worn));

@@ -392,8 +392,8 @@ void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
    const auto along_axis = [&](const Guide::Along &other)
    { return other.motion == Guide::Motion::free || other.motion == Guide::Motion::held; };
    require(plane || (along_axis(guide.x) && along_axis(guide.rotation)),
-           "guide: about an axis a block moves along it alone, x and rotation must not be "
-           "given");
+           "guide: in axisymmetry a guided block can only move along the axis (y), x and "
+           "rotation must not be given");
    const std::array<const Guide::Along *, 3> all{&guide.x, &guide.y, &guide.rotation};
    for (int k = 0; k < 3; ++k)
    {

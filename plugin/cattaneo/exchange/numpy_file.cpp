@@ -160,14 +160,15 @@ std::map<std::string, std::string> stored_files(const std::string &archive,
    append(mark, end_mark);
    const std::size_t end = archive.rfind(mark);
    require(end != std::string::npos, "file '", name,
-           "' is no whole zip archive: it has no directory at its end");
+           "' is no complete zip archive: it has no directory at its end");
    const auto count = at<std::uint16_t>(archive, end + 10, name);
    std::size_t place = at<std::uint32_t>(archive, end + 16, name);
    std::map<std::string, std::string> files;
    for (int k = 0; k < count; ++k)
    {
       require(at<std::uint32_t>(archive, place, name) == central_mark, "file '", name,
-              "' is no zip archive: entry ", k, " of its directory is none");
+              "' is no valid zip archive: entry ", k,
+              " of its directory does not begin with the mark of an entry");
       const auto method = at<std::uint16_t>(archive, place + 10, name);
       const auto crc = at<std::uint32_t>(archive, place + 16, name);
       const auto size = at<std::uint32_t>(archive, place + 24, name);

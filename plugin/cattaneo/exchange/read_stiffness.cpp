@@ -539,11 +539,10 @@ void add_cards(const std::vector<Card> &cards, const std::string &file, NodalSti
                  ", the direction of a force must be 1 or 2");
          const bool there = entries.has_row(at) && !(value != 0 && lost.count(at) == 1);
          result.supports_left_out = result.supports_left_out || (moves && !there);
-         require(
-            there || (moves ? value == 0 : held.count(at) == 1), "file '", file, "': '",
-            card.name, moves ? "' moves " : "' loads ", dof_name(at),
-            ", which the matrix has no forces of, it must be free in the step that writes the "
-            "matrix");
+         require(there || (moves ? value == 0 : held.count(at) == 1), "file '", file, "': '",
+                 card.name, moves ? "' moves " : "' loads ", dof_name(at),
+                 ", but the matrix has no row for it, it must be without support in the step "
+                 "that writes the matrix");
          if (!there) { continue; } // a force on what is held
          if (moves && value == 0) { entries.fix(at); }
          else { entries.add(card.name, card.control, at, value); }

@@ -290,9 +290,9 @@ void HalfPlane::validate(Formulation formulation) const
    require(thickness > 0 && std::isfinite(thickness) && (plane || thickness == 1),
            "half-plane: its thickness is ", thickness,
            plane ? ", must be positive and finite" : ", must be 1 about an axis");
-   require(plane || !is_symmetric(),
-           "half-plane: a plane of symmetry is said of a half-space about "
-           "an axis, is for the plane alone");
+   require(
+      plane || !is_symmetric(),
+      "half-plane: `symmetric` is true for a half-space about an axis, must be false there");
    for (const FarForce &load : forces)
    {
       const Eigen::Vector2d &F = load.force;

@@ -119,9 +119,9 @@ struct HalfPlaneField::Tractions
 HalfPlaneField::HalfPlaneField(const HalfPlane &body, const ContactLine &line,
                                const VectorXd &forces, double bulk)
 {
-   require(line.formulation == Formulation::plane,
-           "field of a half-plane: its line is one of axisymmetry or torsion, must be of the "
-           "plane");
+   require(
+      line.formulation == Formulation::plane,
+      "field of a half-plane: its contact line is axisymmetric or of torsion, must be plane");
    body.validate(line.formulation);
    line.validate();
    require(forces.size() == 2 * line.size() && forces.allFinite(),

@@ -303,9 +303,10 @@ std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactSt
       edge.first = side > 0 ? stretch.first : right;
       edge.last = side > 0 ? left : stretch.last;
       const FrictionBound at = friction_bound(problem, side > 0 ? edge.first : edge.last);
-      require(at.slope(0, 1) == at.slope(0, -1), "contact edges: without pressure friction is ",
-              at.slope(0, 1), " for slip forward and ", at.slope(0, -1),
-              " backward, an edge has one of them");
+      require(at.slope(0, 1) == at.slope(0, -1),
+              "contact edges: at zero pressure the coefficient of friction is ", at.slope(0, 1),
+              " for slip forward and ", at.slope(0, -1),
+              " for slip backward, both must be equal at an edge");
       edge.friction = at.slope();
       if (side > 0 ? stretch.first == 0 : stretch.last == problem.nodes() - 1)
       {

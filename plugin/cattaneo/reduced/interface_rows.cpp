@@ -503,8 +503,8 @@ bool RowsOfInterface::can_be_slave(const Slaves &taken, bool in_rings)
             require(taken_.count(*other) == 0, met.what, ": the node of ",
                     called(bodies_, other->first), " at ",
                     bodies_[other->first].line.nodes[other->second].position,
-                    " carries a row of another interface, and supports hold the one that it is "
-                    "paired with: the other interface must leave it out");
+                    " is in contact in another interface too, and supports hold the node that "
+                    "faces it here: the other interface must end before this node");
             const bool alone = !partner_holds(number, 0) && !partner_holds(number, 1);
             if (alone) { determined = {*other}; }
             else { determined.push_back(*other); }

@@ -107,9 +107,8 @@ void check_diagonal(const ReducedProblem &problem)
          !(Z.rows() == rows && Z.row(row).squaredNorm() > 1 - 1e-10 && own <= nothing),
          "reduced problem: ", slip ? "sliding" : "opening", " at node ",
          place % problem.nodes(),
-         " alone is a rigid motion that nothing resists: its force follows from the loads "
-         "by equilibrium, whatever touches; the bodies must touch on more nodes (three, if "
-         "one is free), or be supported");
+         " alone is a rigid motion that nothing resists, so no contact can be computed there: "
+         "give the contact more nodes (a free body needs three), or support the body");
       require(own > 0, "reduced problem: diagonal of ", slip ? "A" : "C", " is ", own,
               " at row ", place, ", must be positive");
    }

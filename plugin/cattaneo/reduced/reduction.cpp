@@ -79,7 +79,8 @@ Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,
    require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
            "twist: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size());
-   require(shanks_.empty(), "twist: of a reduction with shanks, must be without");
+   require(shanks_.empty(),
+           "twist: the reduction has bolts with shanks, which do not twist, must have none");
    Eigen::VectorXd u = v.tail(n);
    if (obstacle_.size() > 0) { u += (obstacle_ * multipliers).segment(n, n); }
    return recover(torsion[b], torsion_union_->own(torsion, b, u, multipliers),

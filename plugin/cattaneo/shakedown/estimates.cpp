@@ -121,10 +121,10 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    const ReducedProblem &reduced = problem.reduced;
    const Eigen::Index n = reduced.nodes();
    require_coulomb(reduced, "method 2");
-   require(reduced.components() == 1, "method 2: the problem has ", reduced.components(),
-           " tangential components, must have 1");
-   require(problem.residual.rigid.cols() <= 1, "method 2: the contact has ",
-           problem.residual.rigid.cols(), " tangential rigid motions, at most 1 is allowed");
+   require(reduced.components() == 1, "estimate by method 2: the problem has ",
+           reduced.components(), " tangential components, must have 1");
+   require(problem.residual.rigid.cols() <= 1, "estimate by method 2: the contact has ",
+           problem.residual.rigid.cols(), " tangential rigid motions, must have at most 1");
    const StuckForces forces = stuck_forces(reduced, problem.cycle);
    const Eigen::MatrixXd q = forces.q(load_factor), p = forces.p(load_factor);
    const Eigen::MatrixXd &M = problem.residual.transfer;
