@@ -70,7 +70,8 @@ struct CaseOptions
       study.options().require_version(2);
       study.options().group("The case");
       study.option(&example, "example",
-                   ("Prints a case to start from, as in --example joint > my.json, and ends: " +
+                   ("Prints a case to start from, as in --example joint > my.json, and does "
+                    "nothing else. Names: " +
                     example_names() + ".")
                       .c_str());
       study.options().leave_out_of_cases("example");
@@ -78,21 +79,22 @@ struct CaseOptions
       study.option(
          &thickness, "thickness",
          "Thickness of plane bodies: forces, moments and energies are those of the whole "
-         "thickness (default: per thickness).",
+         "thickness (default: unit thickness).",
          positive);
       study.option(&geometry, "geometry",
                    "Sides meshed with straight edges: smooth (the curve through their "
                    "vertices, if they lie on one) or as meshed (polygons).",
                    {"smooth", "as meshed"});
       study.option(&bodies, "bodies", "Bodies by their names, as JSON.", Text::structure);
-      study.option(&interfaces, "interfaces", "Where they touch, by names, as JSON.",
-                   Text::structure);
+      study.option(&interfaces, "interfaces",
+                   "Interfaces, where bodies touch, by their names, as JSON.", Text::structure);
       study.option(&bolts, "bolts",
                    "Bolts, which pull two parts together, by their names, as JSON.",
                    Text::structure);
-      study.option(&points, "points",
-                   "Where displacements and stresses are asked for, by names, as JSON.",
-                   Text::structure);
+      study.option(
+         &points, "points",
+         "Points at which displacements and stresses are printed, by their names, as JSON.",
+         Text::structure);
       study.option(&units, "units",
                    "Names of the units of length and force, as JSON; they are printed, and "
                    "nothing is converted.",
@@ -101,8 +103,8 @@ struct CaseOptions
       study.option(&order, "order", "Order of the elements.", within(1, 8));
       study.option(&edges, "edges",
                    "Times of two states, after pressing and at the peak of the cyclic loads: "
-                   "prints K_N, K_T and slip at the edges of contact. A third time, the other "
-                   "end of the cycle, adds the energy.");
+                   "prints K_N, K_T and slip at the edges of contact. With a third time, the "
+                   "other end of the cycle, the energy loss at the edges is printed too.");
       study.option(&paraview, "paraview", "Folder for ParaView files.", Text::folder);
    }
 

@@ -123,7 +123,7 @@ void assess_pad(Study &study)
                 "CSV of tests (P, Q, material, ..., cycles, runout) to correlate.",
                 Text::input);
    study.parse("j");
-   require(!study.options().says("check"), "option --check: this run has no scene of meshes");
+   require(!study.options().says("check"), "option --check: this run has no meshes to show");
    FrettingSettings criteria;
    criteria.criterion = criteria_by_name.at(criterion);
    study.results["criterion"] = criterion;

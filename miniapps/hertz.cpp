@@ -38,18 +38,23 @@ void hertz(Study &study)
    study.option(&friction, "friction", "Coefficient of friction.", not_negative);
    study.option(&poisson, "poisson", "Poisson's ratio of both bodies.");
    study.option(&ratio, "ratio",
-                "With a block: half-width by Hertz, over that of the block, a.", between(0, 1));
+                "With a block: Hertz's half-width of contact over the half-width of the block.",
+                between(0, 1));
    study.option(&span, "span",
-                "With half-planes: half-width of the line of contact nodes, in b.", above(1));
+                "With half-planes: half-width of the line of contact nodes over Hertz's "
+                "half-width of contact.",
+                above(1));
    study.option(&domain, "domain", domain_help, none_or_above(10));
    study.option(&order, "order", "Order of the elements.", within(1, 8));
    study.option(&nodes, "nodes", "Number of contact nodes.", at_least(9));
    study.option(&levels_of_P, "load-levels",
-                "Loading: list of P/P0 whose pressures and gaps are drawn (empty: none).",
+                "Loading: fractions of the full load P at which pressures and gaps are drawn "
+                "(empty: none).",
                 above_up_to(0, 1));
-   study.option(&shear, "shear", "Monotonic shear after P: list of Q/fP, or none.");
+   study.option(&shear, "shear", "Monotonic shear after P: values of Q/fP, or none.");
    study.option(&settings.increments, "increments",
-                "Load increments between two values (more where contact advances).",
+                "Load increments between two values of --load-levels or --shear (more where "
+                "contact advances).",
                 at_least(1));
    study.parse();
    require((nodes - 1) % order == 0, "option --nodes is ", nodes,

@@ -159,8 +159,9 @@ void Shakedown::options()
    if (std::isnan(reversal))
    {
       require(std::abs(lambda_min) <= lambda_max, "option --lambda-min is ", lambda_min,
-              ", must be between the negative and the positive value of --lambda-max, ",
-              lambda_max, " (call the larger load the largest)");
+              ", must be from ", -lambda_max, " to ", lambda_max,
+              ", the value of --lambda-max. If the most negative load is the larger one, "
+              "change all signs");
       reversal = lambda_min / lambda_max;
    }
    results["reversal"] = reversal;

@@ -78,9 +78,11 @@ void square_punch(Study &study)
                 "Coefficient of friction; default 0.2 (rigid), 0.4 (half-plane).",
                 not_negative);
    add_options(study, options);
-   study.option(&shear, "shear", "Monotonic shear: list of Q/fP, or none.");
-   study.option(&jumps, "dislocation", "Tractions of jumps of slip: list of x/a (empty: none).",
-                Check{[](double at) { return std::abs(at) < 1; }, "must be between -1 and 1"});
+   study.option(&shear, "shear", "Monotonic shear: values of Q/fP, or none.");
+   study.option(
+      &jumps, "dislocation",
+      "Prints the tractions that a unit jump of the slip causes at these x/a (empty: none).",
+      Check{[](double at) { return std::abs(at) < 1; }, "must be between -1 and 1"});
    study.option(&cycles, "cycles", "Cycles of Q = ± amplitude fP, after P (0: none).",
                 not_negative);
    study.option(&amplitude, "amplitude", "Amplitude of the cycles in Q/fP.");

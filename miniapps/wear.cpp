@@ -63,14 +63,14 @@ void wear_contact(Study &study)
    settings.tolerance = 1e-3;
    settings.march.increments = 0;
    study.option(&pad.profile, "profile",
-                "Pad: parabola, or flat with rounded edges. Both have R = 1; the unit of "
-                "length is the parabola's half-width under P = 1.",
+                "Pad: parabola, or flat with rounded edges. Units: P = 1, R = 1, and the "
+                "parabola's half-width of contact under P is 1, which fixes the modulus.",
                 {"parabola", "flat"});
    study.option(
       &pad.flat, "flat",
       "Pad: half-width of the flat part (with 0.5 the half-width of contact is 1.36 under P).",
       between(0, 1));
-   study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.", between(0, 1));
+   study.option(&shear, "shear", "Pad: amplitude of Q over fP; default: 0.5.", between(0, 1));
    study.option(&friction, "friction",
                 "Coefficient of friction; default: 0.5, with --reduced that of the file.",
                 positive);
@@ -81,23 +81,23 @@ void wear_contact(Study &study)
    study.option(&pad.order, "order", "Pad: order of the elements.", within(1, 8));
    study.option(&cycles, "cycles", "Number of cycles in all, with those of --load-state.",
                 within(0, 1e15));
-   study.option(&coefficient, "wear", "Archard's k, of both bodies together, 1/pressure.",
+   study.option(&coefficient, "wear", "Archard's k of both bodies together, in 1/pressure.",
                 not_negative);
    study.option(&threshold, "threshold", "Pressure below which nothing wears.", not_negative);
    study.option(&of_energy, "energy",
-                "k is wear per energy lost by friction, so that f k takes the place of k.");
+                "k is the wear per energy lost by friction: f k takes the place of k.");
    study.option(&settings.tolerance, "tolerance",
-                "Largest error of depths because cycles are skipped, as a share of the largest "
-                "depth; 0: all are marched.",
+                "Largest error of worn depths that skipping cycles may cause, as a share of "
+                "the largest depth. 0: no cycle is skipped.",
                 within(0, 0.1));
    study.option(&update, "update",
                 "When wear is added to the gap: after each cycle, or after each piece of it.",
                 {"cycle", "piece"});
-   study.option(
-      &settings.march.increments, "increments",
-      "Load increments between two points of the history. 0: one if slip goes straight (the "
-      "pads, or B = 0 with constant normal loads in the cycle), else 20.",
-      at_least(0));
+   study.option(&settings.march.increments, "increments",
+                "Load increments between two points of the history. 0: 1 where slip is in "
+                "proportion to the load in each part of the cycle (the pads, or an uncoupled "
+                "problem with constant normal loads in the cycle), else 20.",
+                at_least(0));
    stepping.declare(study);
    study.option(&file, "reduced", "Reduced problem, in place of the pad.", Text::input);
    study.option(&history_text, "history",

@@ -70,8 +70,8 @@ Check none_or_above(double low)
 }
 
 const char *const domain_help =
-   "Half-width and depth of a meshed block in place of the half-plane, as a check (0: none, "
-   "the half-plane itself, which has no mesh).";
+   "Half-width and depth of a meshed block that takes the place of the half-plane, as a check. "
+   "0: the exact half-plane, which has no mesh.";
 
 namespace
 {
@@ -183,7 +183,7 @@ void Options::add(std::string *value, const Names &names, const char *help,
 void Options::add_set()
 {
    add(&set_, "set",
-       "Another value in one place of the case, as 'interfaces.flank.friction=0.5' or "
+       "Replaces one value of the case, as 'interfaces.flank.friction=0.5' or "
        "'history.2.Q=0.1'; may be given several times.",
        Text::statements);
    leave_out_of_cases("set");

@@ -225,9 +225,9 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
    study.option(&settings.increments, "increments",
                 "Load increments between two points of the history.", at_least(1));
    stepping_.declare_with_events(study);
-   study.option(
-      &frames_, "frames",
-      "Times at which states are written besides the last one, or all (every increment).");
+   study.option(&frames_, "frames",
+                "Times, as '1 2.5', at which states are written besides the last one, or the "
+                "word all: at every increment.");
    study.option(&save_state_, "save-state", "File for the last state.", Text::output);
    study.option(&load_state_, "load-state", "State from which the march continues.",
                 Text::input);

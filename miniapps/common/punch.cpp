@@ -29,7 +29,7 @@ void add_options(Study &study, PunchOptions &options)
    study.option(&options.nodes, "nodes", "Contact nodes.");
    study.option(
       &options.grading, "grading",
-      "Size of the contact elements at the corners over the middle ones (1: uniform).",
+      "Size of the contact elements at the corners over the size in the middle (1: uniform).",
       above_up_to(0, 1));
    study.option(&options.domain, "domain", domain_help, none_or_above(2));
 }

@@ -29,7 +29,7 @@ void RecedingOptions::validate() const
    require(side == 0 || (side > 1 && domain > 0), "option --side is ", side,
            domain > 0 ? ", must be 0 or above 1 (in t)"
                       : ", belongs to a block: --domain must give its depth");
-   require(!overhangs.empty(), "there is no overhang");
+   require(!overhangs.empty(), "option --overhang has no value, must have at least one");
    for (double n : overhangs)
    {
       require(n > 0 && n < length, "option --overhang or --map: ", n,

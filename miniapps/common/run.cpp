@@ -121,8 +121,9 @@ double Run::load(const std::string &pattern) const
 void SteppingOptions::declare(Study &study)
 {
    study.option(&stepping_, "stepping",
-                "exact (from one change of state to the next; with torsion increments, halved "
-                "while contact advances by more than a node) or fixed (equal increments).",
+                "exact: from one change of state to the next. With torsion there is no exact "
+                "path: increments are halved until contact advances by at most one node. "
+                "fixed: equal increments.",
                 {"exact", "fixed"});
 }
 
@@ -130,8 +131,8 @@ void SteppingOptions::declare_with_events(Study &study)
 {
    declare(study);
    study.option(&events_, "events",
-                "List all changes of state of the exact path, and write a row for each in "
-                "place of the stops.");
+                "List all changes of state of the exact path. Tables of the history then have "
+                "a row for each change, not for each increment.");
    study.options().leave_out_of_cases("events");
 }
 

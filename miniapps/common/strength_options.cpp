@@ -24,11 +24,12 @@ Eigen::MatrixX2d points_of_strength(const char *option, const std::vector<double
 StrengthOptions::StrengthOptions(Study &study) : study(study)
 {
    study.option(&forward, "strength",
-                "Another law of friction: pressure and shear strength of its points in turn, "
-                "through which the bound goes from (0, 0) and beyond, as '1 0.5 3 0.8'.",
+                "Friction by a polyline in place of a coefficient: pressure and shear strength "
+                "of each point in turn, as '1 0.5 3 0.8'. It begins at (0, 0) and goes "
+                "straight on beyond the last point.",
                 not_negative);
    study.option(&backward, "strength-backward",
-                "The same of slip backward; default: as forward.", not_negative);
+                "The same for slip backward; default: as forward.", not_negative);
 }
 
 void StrengthOptions::check() const

@@ -47,11 +47,12 @@ void Study::parse(const char *json)
    option(&sweep_, "sweep",
           "One run for each value of an option, as 'friction=0.2 0.5' or 'order=1:4:4' "
           "(from:to:count). Several places may share a value, as history.2.Q,-history.3.Q=0.1 "
-          "0.2. Several --sweep, or semicolons, make all combinations.",
+          "0.2 (a place with a minus sign gets the opposite value). Several --sweep, or "
+          "semicolons, make all combinations.",
           Text::statements);
    option(&sweep_results_, "sweep-results",
           "Results in the table of a sweep, by their names in --json (dissipation.0 "
-          "\"cycles.0.work Q\"); default: all single numbers.");
+          "\"cycles.0.work Q\"); default: all results that are one number.");
    if (ranks() > 1)
    {
       options_.group("Several ranks");
@@ -68,7 +69,7 @@ void Study::parse(const char *json)
    cattaneo::require(!check_ || save_.empty(),
                      "option --save: --check stops before there is anything to save");
    if (!sweeps) { return; }
-   cattaneo::require(!check_, "option --check is of one run, a sweep has many");
+   cattaneo::require(!check_, "option --check checks one run, it cannot be used with --sweep");
    run_sweep(*this, name_, sweep_);
 }
 
@@ -95,7 +96,7 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
    seconds_ = watch.seconds();
    const auto left = static_cast<long>(problem.K.rows());
    dofs_ = dofs > 0 ? dofs : static_cast<int>(left);
-   cattaneo::require(!check_ || checked_, "option --check: this run has no scene of meshes");
+   cattaneo::require(!check_ || checked_, "option --check: this run has no meshes to show");
    if (dofs > 0) { say(text("Condensed %d dofs to %ld in %.3g s", dofs, left, seconds_)); }
    else
    {
@@ -305,7 +306,7 @@ void Study::compare_references()
 
 void Study::finish()
 {
-   cattaneo::require(!check_ || checked_, "option --check: this run has no scene of meshes");
+   cattaneo::require(!check_ || checked_, "option --check: this run has no meshes to show");
    cattaneo::require(save_.empty() || saved_ || code != 0,
                      "option --save: this run has no reduced problem to save");
    begun_.paths.clear();

@@ -438,8 +438,11 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    if (key.has("tied")) { made.tied = key["tied"].flag(); }
    if (key.has("obstacle"))
    {
-      require(sides.size() == 1 && !key.has("gap"), key.called(),
-              ": an obstacle is for one side alone, and goes without the key gap");
+      require(sides.size() == 1, key.called(), ": an interface with an obstacle has ",
+              sides.size(), " sides, must have one");
+      require(
+         !key.has("gap"), key.called(),
+         ": has both obstacle and gap: leave gap out, the obstacle's place gives the gaps");
       add_obstacle(made, key["obstacle"]);
    }
    if (key.has("motion"))

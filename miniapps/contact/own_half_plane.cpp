@@ -107,7 +107,7 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
       require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
               body.name, " against it. Displacements of a half-plane are relative to a depth: ",
               plane.source.called("half-plane.depth"),
-              " must state it, or forces alone act on the body");
+              " must give it, unless the body has no such supports and only forces act on it");
    }
    require(!relative || joint.bolts.empty(), plane.source.called("half-plane.depth"),
            " must be given beside bolts, whose forces follow displacements");

@@ -461,7 +461,8 @@ bool twist(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts)
               ": bodies that twist must have meshes");
    }
    require(joint.bolts.empty(), asks->called(),
-           " is turned about the axis: beside bolts it cannot be, their shanks would twist");
+           " twists a body about the axis, which a case with bolts does not allow, because "
+           "their shanks would twist");
    for (std::size_t b = 0; b < parts.size(); ++b) { parts[b].add_twisting(own, b); }
    return true;
 }

@@ -181,9 +181,10 @@ DesignVariables choose_coat(DesignProblem &design, const DesignChoice &choice)
       }
       const std::string place = line.name + text("f from %.4g to %.4g", from, to);
       require(least <= most, "option --zones is ", zones, ": no node lies in ", place);
-      require(least >= choice.coat[0] && most <= choice.coat[1], "option --coat is from ",
-              choice.coat[0], " to ", choice.coat[1], ", friction is from ", least, " to ",
-              most, " in ", place, ": the design starts there");
+      require(least >= choice.coat[0] && most <= choice.coat[1],
+              "option --coat allows friction from ", choice.coat[0], " to ", choice.coat[1],
+              ", must include the friction of the problem, ", least, " to ", most, " in ",
+              place, ", with which the design starts");
       require(least == most, "option --zones is ", zones, ": friction is from ", least, " to ",
               most, " in ", place, ", must be one number there");
       design.low[v] = choice.coat[0] - least;

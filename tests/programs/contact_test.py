@@ -90,7 +90,7 @@ def test_nodes_that_are_paired_far_off_one_another(run, grading):
                                      "contact -case meshes/calculix/laps.json"])
 def test_what_has_no_meshes_cannot_be_shown(run, command):
     got = run(*command.split(), "--check", code=1)
-    assert got.error == "error: option --check: this run has no scene of meshes\n"
+    assert got.error == "error: option --check: this run has no meshes to show\n"
     assert got.results is None
 
 
@@ -172,7 +172,7 @@ def test_displacements_on_a_half_plane_are_relative_to_a_depth(run):
     # P = 1, E' = 1: 2/π ln(D₂/D₁).
     near(sunk[1] - sunk[0], 2 / math.pi * math.log(10), 1e-9)
     # A prescribed displacement or a support needs the depth: 0.1 is more than what P = 0.1 does.
-    must = "key 'bodies.ground.half-plane.depth' must state it"
+    must = "key 'bodies.ground.half-plane.depth' must give it"
     for changes in (moved, {**forces, "bodies.block.support": "3:x"}):
         assert must in run.refused(case(None, changes))
     run.case(case(1000, moved), "--paraview", run.folder / "fields")

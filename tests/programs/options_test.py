@@ -63,7 +63,7 @@ def test_empty_names_and_scenes_that_are_none_are_refused(run):
         run.refuses("hertz", [written, ""], [written, "is empty"])
     run.refuses("hertz", ["--json", "", "--order", 2], ["--json", "is empty"])
     for program, *words in (["design"], ["wear"], ["fretting"], ["fretting", "-p", "fe"]):
-        run.refuses(program, [*words, "--check"], ["option --check", "no scene of meshes"])
+        run.refuses(program, [*words, "--check"], ["option --check", "no meshes to show"])
     run.refuses("lap_joint", ["--bolts", 100000], ["--bolts", "contact nodes", "20000"])
     run.refuses("lap_joint", ["-spacing", 0.05, "--cycles", 2147483647], ["cycles", "at most"])
 
