@@ -72,7 +72,8 @@ OwnBodies make_own_bodies(const JointCase &joint)
    {
       if (joint.bodies[b].half_plane) { continue; }
       require(!of_body[b].empty(), "body ", joint.bodies[b].name,
-              " is at no interface, nothing touches it: it must be at one, or be left out");
+              " is in no interface, so nothing touches it: name an interface for it, or leave "
+              "it out");
       const ContactLine line = of_body[b].size() == 1 ? of_body[b][0] : joined(of_body[b]);
       // The last with a factor that this one's could be.
       const CondensedBody *alike = nullptr;

@@ -68,8 +68,9 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
          box.extend(node.position);
       }
    }
-   require(any, "body ", plane.name,
-           " is at no interface, nothing touches it: it must be at one, or be left out");
+   require(
+      any, "body ", plane.name,
+      " is in no interface, so nothing touches it: name an interface for it, or leave it out");
    normal.normalize();
    if (about_axis) { normal = Eigen::Vector2d(0, normal[1] > 0 ? 1 : -1); }
    Eigen::Vector2d at = any->position;

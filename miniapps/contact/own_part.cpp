@@ -590,7 +590,7 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
          }
       }
       require(found != left.end(), "matrix '", file, "': body ", joint.bodies[b].name,
-              " is at no interface, must be at one");
+              " is in no interface, must be in one");
       takers[file + "\n" + found->name] = joint.bodies[b].name;
       own.known_elements = false;
       own.scene.dofs += static_cast<int>(found->dofs.size());

@@ -219,8 +219,8 @@ def test_plot(hertz):
 
 def test_a_load_that_acts_before_anything_presses(hertz):
     """The outcome says which loads come later, or that none does."""
-    with pytest.warns(cattaneo.OutcomeWarning, match="nothing presses yet: load 'P' begins towards point 2"):
+    with pytest.warns(cattaneo.OutcomeWarning, match="no load presses the bodies together yet: load 'P' grows on the way to point 2"):
         report = cattaneo.march(hertz, [{}, {"Q": 0.1}, {"P": 1}])
-    assert "what presses must come first" in report.message and report.state.p.max() == 0
-    with pytest.warns(cattaneo.OutcomeWarning, match="no load comes later: is the sign of one of them wrong"):
+    assert "the load that presses must come first" in report.message and report.state.p.max() == 0
+    with pytest.warns(cattaneo.OutcomeWarning, match="no other load comes later: does a load have the wrong sign"):
         cattaneo.march(hertz, [{}, {"P": -1}])

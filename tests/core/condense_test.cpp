@@ -550,7 +550,7 @@ TEST(CondenseMatrix, SaysWhatIsWrongOfALine)
       spoil(spoilt);
       expect_input_error([&] { condense(frame.body(true), spoilt); }, said);
    };
-   refused("there are no nodes", [](auto &l) { l.nodes.clear(); });
+   refused("it has no nodes", [](auto &l) { l.nodes.clear(); });
    refused("node 2 is at (nan, 0)", [](auto &l) { l.nodes[2].position[0] = NAN; });
    refused("tangent at (1, 0) has the length 2", [](auto &l) { l.nodes[1].tangent[0] = 2; });
    refused("weight of the node at (3, 0) is 0", [](auto &l) { l.nodes[3].weight = 0; });
@@ -585,7 +585,8 @@ TEST(CondenseMatrix, SaysWhatIsWrongOfALine)
               for (LineNode &node : l.nodes) { node.position[0] += 1; }
               l.chains[0].elements.clear();
            });
-   refused("beyond the axis x = 0", [](auto &l) { l.formulation = Formulation::torsion; });
+   refused("have x > 0 if there is an axis",
+           [](auto &l) { l.formulation = Formulation::torsion; });
 }
 
 TEST(CondenseMatrix, ALineIsWhereItsDofsAre)
@@ -728,7 +729,7 @@ TEST(CondenseMatrix, EliminatedRowsAreSupports)
          expect_input_error([&] { condense(gone, line); }, "holds nothing but its diagonal");
       }
       gone.grounded = true;
-      EXPECT_NE(gone.eliminated_warning().find("they are taken for supports"),
+      EXPECT_NE(gone.eliminated_warning().find("these rows are taken for eliminated supports"),
                 std::string::npos);
       const CondensedBody condensed = condense(gone, line);
       EXPECT_LT((condensed.S - right.S).norm(), 1e-12 * right.S.norm()) << diagonal;
@@ -871,7 +872,7 @@ TEST(CondenseMatrix, LinesThatArePairedAreSound)
                          { second ? pair_lines(good, bad) : pair_lines(bad, lower.line()); },
                          "spacing at (1, 0) is 0");
       expect_input_error([&] { second ? pair_lines(good, {}) : pair_lines({}, good); },
-                         "there are no nodes");
+                         "it has no nodes");
    }
 }
 
@@ -881,7 +882,7 @@ TEST(CondenseMatrix, ObstacleMotionsHaveNamesOfTheirOwn)
    Reduction reduction = reduce(condense(frame.body(true), frame.line()));
    const auto add = [&](const char *name) { reduction.add_obstacle_motion(name, 0.0, 1.0); };
    expect_input_error([&] { add(""); }, "obstacle motion: it has no name");
-   expect_input_error([&] { add("pull"); }, "a load pattern of that name is there already");
+   expect_input_error([&] { add("pull"); }, "a load pattern with this name exists already");
    add("rise");
    const LoadPattern once = reduction.problem.patterns.back();
    add("rise"); // as much again
@@ -1002,7 +1003,7 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
    AssembledBody bad = good;
    bad.fixed.insert(bad.fixed.begin(), 5);
    expect_input_error([&] { reduce(condense(bad, line)); },
-                      "(2, 0) is fixed normal to the line, it must be able to open");
+                      "(2, 0) is fixed normal to the line, so that it cannot open");
    bad.blocks.push_back({VectorXd::Unit(24, 5), "", 1});
    expect_input_error(
       [&] { condense(bad, line); },
@@ -1017,9 +1018,11 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
       spoil(spoilt);
       expect_input_error([&] { condense(spoilt, line); }, said);
    };
-   refused("places of 23, 24 and 24 dofs", [](auto &b) { b.places.x.conservativeResize(23); });
+   refused("x, y and component are given for 23, 24 and 24 dofs",
+           [](auto &b) { b.places.x.conservativeResize(23); });
    refused("dof 3 has component 2", [](auto &b) { b.places.component[3] = 2; });
-   refused("place of dof 4 is not finite", [](auto &b) { b.places.y[4] = INFINITY; });
+   refused("dof 4 has a coordinate that is not finite",
+           [](auto &b) { b.places.y[4] = INFINITY; });
    refused("fixed dof 24, must be from 0 to 23", [](auto &b) { b.fixed.push_back(24); });
    refused("fixed dof 16 follows 17", [](auto &b) { std::swap(b.fixed[0], b.fixed[1]); });
    refused("load 'pull' has 5 values",
@@ -1030,7 +1033,7 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
    // zeros that are stored.
    for (const bool stored : {false, true})
    {
-      refused("load 'lift' moves nothing, the rows of the displaced dofs hold nothing but a "
+      refused("load 'lift' moves nothing, because the rows of the displaced dofs have only a "
               "diagonal: was the matrix eliminated?",
               [&](auto &b)
               {

@@ -271,12 +271,13 @@ TEST(Design, RefusesWhatDoesNotFitAndSaysWhatHasNoEquilibrium)
 {
    DesignProblem problem = crowned_pad();
    const VectorXd start = Eigen::Vector2d(0.5, 0.1);
-   expect_input_error([&] { design(problem, VectorXd::Zero(3)); }, "3 values for 2 variables");
+   expect_input_error([&] { design(problem, VectorXd::Zero(3)); },
+                      "the start has 3 values, must have one for each of the 2 variables");
    expect_input_error([&] { design(problem, Eigen::Vector2d(0, 0)); },
                       "variable 0 starts at 0");
    DesignProblem other = problem;
    other.high[1] = INFINITY;
-   expect_input_error([&] { design(other, start); }, "variable 1 is bounded");
+   expect_input_error([&] { design(other, start); }, "variable 1 has the bounds");
    other = problem;
    other.cases.clear();
    expect_input_error([&] { design(other, start); }, "no load case");
@@ -407,11 +408,11 @@ TEST(Design, RefusesAShapeWithOtherDerivatives)
          return gap;
       };
       expect_input_error([&] { design(problem, Eigen::Vector2d(0.5, 1)); },
-                         "derivative by variable " + std::to_string(column));
+                         "returns for variable " + std::to_string(column));
    }
    problem.shape = [](const VectorXd &, MatrixXd &) { return VectorXd(VectorXd::Zero(3)); };
    expect_input_error([&] { design(problem, Eigen::Vector2d(0.5, 1)); },
-                      "the shape has 3 gaps");
+                      "`shape` returned 3 gaps");
    problem.shape = good;
    expect_input_error([&] { limit_curvature(problem, -1, 1); }, "must be linear in them");
    EXPECT_EQ(problem.with(Eigen::Vector2d(0.25, 2)).gap[0], 0.75 * 0.75);
@@ -436,7 +437,7 @@ TEST(Design, TakesAShapeThatBendsWithinFarBounds)
       settings.max_iterations = 1;
       const auto search = [&] { design(problem, Eigen::Vector2d(0.5, 0.5), settings); };
       if (factor == 1) { search(); }
-      else { expect_input_error(search, "derivative by variable 0"); }
+      else { expect_input_error(search, "returns for variable 0"); }
    }
    // Where it begins level, beside what does not depend on it, a slope is still a wrong one.
    problem.shape = [x](const VectorXd &values, MatrixXd &by)
@@ -447,7 +448,7 @@ TEST(Design, TakesAShapeThatBendsWithinFarBounds)
    problem.low = Eigen::Vector2d(-1, -1);
    problem.high = Eigen::Vector2d(1, 1);
    expect_input_error([&] { design(problem, Eigen::Vector2d(0, 0)); },
-                      "derivative by variable 0");
+                      "returns for variable 0");
 }
 
 // Starts are apart from one another, spread over the box, and where all limits hold; along what

@@ -236,7 +236,7 @@ TEST_F(Exchange, AbaqusRowsThatAreNumbered)
    // x of all nodes, then y of all.
    expect_input_error(
       [&] { write([](const NodeDof &dof) { return dof.node + 15 * (dof.direction - 1); }); },
-      "rows are numbered otherwise");
+      "rows are numbered in another way");
 }
 
 /// K of one spring of `k` between internal node -1 and node 1, another to node 2, and 5 across.
@@ -831,7 +831,7 @@ TEST_F(Exchange, ADeckMayNameTheThirdCoordinateOrEndItsLinesWithAComma)
    }
    NodalStiffness twisting = lower_lap();
    twisting.formulation = Formulation::torsion;
-   expect_input_error([&] { twisting.validate(); }, "it is of torsion");
+   expect_input_error([&] { twisting.validate(); }, "its formulation is torsion");
 }
 
 /// What holds one body is no excuse for another one: a free body's damaged matrix is seen.
@@ -881,7 +881,7 @@ TEST_F(Exchange, LoadsThatARowCannotHaveAreRefused)
    {
       write_whole("m.inp", std::string("*NODE\n1, 0., 2.\n*") + card + "\n1, P3, 50.\n");
       expect_input_error([&] { read_stiffness("m.sti"); },
-                         "loads elements, which is not read beside a matrix");
+                         "loads elements, which is not supported beside a matrix");
    }
    write_whole("m.inp", "*NODE\n1, 0., 2.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 50.\n");
    EXPECT_NO_THROW(read_stiffness("m.sti")); // of which no step makes a strain
@@ -912,7 +912,7 @@ TEST_F(Exchange, PlacesFarFromTheOriginAreRefused)
    EXPECT_NO_THROW(moved(1e7).body());
    for (double by : {1e9, -1e9})
    {
-      expect_input_error([&] { moved(by).body(); }, "the origin must be nearer");
+      expect_input_error([&] { moved(by).body(); }, "move the origin nearer");
    }
 }
 
@@ -935,7 +935,7 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
             "entry (1, -2147483648), must be within 2×2"},
            {"m.mtx", "1,3,1,3,2.\n", "plane strain with E (1 + 2ν)/(1 + ν)²"},
            {"m.mtx", "1,1,1,1,2.\n1,1,1,1,3.\n",
-            "entry (node 1 direction 1, node 1 direction 1) is there twice"},
+            "entry (node 1 direction 1, node 1 direction 1) is listed twice"},
            {"m.mtx", "1,1,1,1,2.\n2,1,2,1,2.\n2,1,1,1,1.\n1,1,2,1,1.1\n", "must be symmetric"},
            {"m.mtx", "1,1,1,1,2.\n2,1,1,1,1.\n", "node 2 direction 1) is 0, the diagonal"},
            {"m.mtx", "1,1,1,1,-2.\n", "is -2, the diagonal of a stiffness must be positive"},
@@ -970,7 +970,8 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
             "more entries than 2"},
            {"coordinate complex symmetric\n", "", "must be %%MatrixMarket matrix coordinate"},
            {"coordinate real symmetric\n", "", "ends before the size"},
-           {"coordinate real symmetric\n", "999999999 999999999 1\n", "one a row at least"},
+           {"coordinate real symmetric\n", "999999999 999999999 1\n",
+            "at least one for each row"},
            {"coordinate real general\n", "2 2 3\n1 1 1\n2 2 1\n2 1 1\n", ""},
            {"array real general\n", "1 1\n1\n", "names 2 rows, the matrix has 1"}})
    {
@@ -1015,7 +1016,7 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
            {"",
             "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=CPE3\n5, 1, 2, 3\n8, 2, 3, "
             "1\n",
-            "file 'm.inp': element 8 and element 5 are on the same side of their edge"},
+            "file 'm.inp': element 8 and element 5 lie on the same side of their common edge"},
            {"", "*NODE\n1, 0., 0.\n*TRANSFORM\n", "*TRANSFORM turns directions"},
            {"", "*NODE\n1, 0., 0.\n*EQUATION\n", "*EQUATION makes nodes depend on others"},
            {"", "*NODE\n1, 0., 0.\n*Rigid body, ref node=1\n",
@@ -1186,7 +1187,7 @@ TEST(OuterEdges, OfASquareAndATriangle)
       [&] {
          outer_edges({{0, 1, 2, 3}, {1, 2, 3, 0}}, places, {7, 9});
       },
-      "element 9 and element 7 are on the same side of their edge from node 1 to 2");
+      "element 9 and element 7 lie on the same side of their common edge from node 1 to 2");
 }
 
 } // namespace

@@ -753,6 +753,7 @@ TEST(ContactStates, AreOfTheProblemTheyWereSolvedIn)
    saved.require_of(problem);
    expect_input_error([&] { saved.require_of(turned); },
                       "contact state: its loads are " + problem.patterns[0].name + ", " +
-                         problem.patterns[1].name + ", those of the reduced problem " +
+                         problem.patterns[1].name +
+                         ", must be those of the reduced problem in the same order: " +
                          problem.patterns[1].name + ", " + problem.patterns[0].name);
 }

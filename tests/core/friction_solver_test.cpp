@@ -472,7 +472,7 @@ TEST(FrictionSolver, RefusesStatesAndLoadsThatAreNotOfItsProblem)
    expect_input_error([&] { solver.judge(other, good); }, "contact state: it has 1 nodes");
    state = good;
    expect_input_error([&] { solver.solve(state, VectorXd::Ones(2)); },
-                      "2 load multipliers for 1 load patterns");
+                      "2 load multipliers, must be one for each of the 1 load patterns");
    expect_input_error([&] { solver.solve(state, VectorXd::Constant(1, NAN)); },
                       "friction solver: the multiplier of load pattern 'load' is nan");
    EXPECT_EQ(solver.solve(state, load).status, FrictionStatus::converged);

@@ -316,13 +316,13 @@ TEST(FromContact, ALineThatIsCutOffOrClosedHasNoCorners)
    EXPECT_FALSE(edges[1].complete);
    chain.loop = true;
    expect_input_error([&] { contact_edges(problem, solved.pressed, solved.peak); },
-                      "closed and in contact at node 0");
+                      "is a loop, and touches at node 0");
    ContactState open = solved.peak; // at the first node, not at the last
    open.status[0] = NodeState::separation;
    open.p[0] = open.q[0] = 0;
    open.w[0] = 1;
    expect_input_error([&] { contact_edges(problem, open, open); },
-                      "closed and in contact at node 40");
+                      "is a loop, and touches at node 40");
    const ReducedProblem disc = cattaneo_test::as_disc(four_springs());
    const ContactState state = ContactState::virgin(disc);
    expect_input_error([&] { contact_edges(disc, state, state); },
@@ -670,10 +670,10 @@ TEST(FromContact, EnergyOfAnEdgeIsThatOfItsNodesAndOfThoseThatRubBeyond)
    edge.first = 0;
    const Eigen::VectorXd weights = problem.weights;
    problem.weights.resize(0);
-   refused("the problem has 0 weights for its 10 nodes");
+   refused("the problem has 0 weights, must have one for each of its 10 nodes");
    problem.weights = weights;
    cycle.node_dissipation.conservativeResize(n - 1);
-   refused("the dissipation of 9 nodes, the problem has 10");
+   refused("the dissipation of 9 nodes, must have that of all 10");
 }
 
 TEST(FromContact, TractionsOfAnEdgeNeedItsPlaces)
@@ -734,7 +734,7 @@ TEST(EdgeReport, OfAHertzContactHasTheClosedFormsOfItsCycle)
    for (const SolvedEdge &one : read_edges(states).edges)
    {
       EXPECT_FALSE(one.energy);
-      EXPECT_TRUE(notes_say(one, "not of one material"));
+      EXPECT_TRUE(notes_say(one, "have different materials"));
    }
    states.modulus = modulus;
    const EdgeReport report = read_edges(states);

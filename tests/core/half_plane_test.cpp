@@ -919,7 +919,7 @@ TEST(Pairing, NamesEachNodeOfTheOtherBodyOnce)
       [&] {
          reduce(body, body, Pairing{{3, 2, 1, 0}, VectorXd::Zero(4)});
       },
-      "contact lines of 5 and 5 nodes with a pairing of 4");
+      "the contact lines have 5 and 5 nodes and the pairing 4");
 }
 
 TEST(HalfPlane, BadInputIsNamed)
@@ -932,15 +932,15 @@ TEST(HalfPlane, BadInputIsNamed)
    // What ends at a held node may be half a model, or be held by a wall.
    ContactLine ends = line;
    ends.chains[0].ends[1] = LineEnd::symmetry;
-   refused(bad, ends, "is held along the surface, where the contact ends");
+   refused(bad, ends, "along the surface: say whether this is a plane of symmetry");
    bad.symmetric = false;
    EXPECT_NO_THROW(condense(bad, ends));
    bad = good;
    bad.depth = 0;
    refused(bad, line,
-           "depth 0, must be stated and at least twice the length of the contact, 4");
+           "relative is 0, must be given, and be at least twice the length of the contact, 4");
    bad.depth = 3.99;
-   refused(bad, line, "depth 3.99, must be stated and at least twice the length");
+   refused(bad, line, "relative is 3.99, must be given, and be at least twice the length");
    bad.depth = 4;
    EXPECT_NO_THROW(condense(bad, line));
    bad = good;
@@ -964,7 +964,7 @@ TEST(HalfPlane, BadInputIsNamed)
    };
    loaded({{"", {0, 1}}}, "has no pattern");
    loaded({{"P", {1, 1}}}, "along the normal");
-   loaded({{"P", {0, 1}}, {"P", {0, 2}}}, "two far forces are of the pattern 'P'");
+   loaded({{"P", {0, 1}}, {"P", {0, 2}}}, "two far forces have the pattern 'P'");
    const auto pulled = [&](std::vector<BulkStress> bulk, const std::string &says)
    {
       HalfPlane body = good;
@@ -973,7 +973,7 @@ TEST(HalfPlane, BadInputIsNamed)
    };
    pulled({{"", 1}}, "a bulk stress has no pattern");
    pulled({{"B", NAN}}, "the bulk stress of the pattern 'B' is nan");
-   pulled({{"B", 1}, {"B", 2}}, "two bulk stresses are of the pattern 'B'");
+   pulled({{"B", 1}, {"B", 2}}, "two bulk stresses have the pattern 'B'");
    expect_input_error([&] { condense(good, {0, 1, 1}, 2); }, "1 and 1 follow each other");
    const ContactLine round = straight_line(uneven, 2, Formulation::axisymmetric);
    refused(bad, round, "along the axis");
@@ -986,7 +986,7 @@ TEST(HalfPlane, BadInputIsNamed)
            "order of a contact element is 9, must be from 1 to 8");
    ContactLine points_alone = line;
    points_alone.chains[0].elements.clear();
-   refused(good, points_alone, "has no elements between its nodes");
+   refused(good, points_alone, "the contact line has no elements");
    ContactLine backwards = line;
    for (LineNode &node : backwards.nodes) { node.position[0] *= -1; }
    for (LineElement &element : backwards.chains[0].elements) { element.points.row(0) *= -1; }

@@ -647,7 +647,8 @@ TEST(HalfSpaceContact, SaysWhatItCannotTake)
    refused([](HalfSpace &bad) { bad.size[1] = 0; }, "(0.1, 0), must be positive");
    refused([](HalfSpace &bad) { bad.centres(4, 0) += 0.01; }, "rectangle 4 is (0.01, 0)");
    refused([](HalfSpace &bad) { bad.centres.row(4) = bad.centres.row(2); }, "is there twice");
-   refused([](HalfSpace &bad) { bad.centres.resize(0, 2); }, "no rectangles");
+   refused([](HalfSpace &bad) { bad.centres.resize(0, 2); },
+           "neither rectangles nor triangles");
    refused([](HalfSpace &bad) { bad.centres(0, 0) = NAN; }, "not finite");
    HalfSpace one = good;
    one.centres = Places::Zero(1, 2);

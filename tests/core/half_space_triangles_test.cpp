@@ -430,7 +430,7 @@ TEST(HalfSpaceTriangles, Outlines)
       EXPECT_NEAR(enclosed(line), 0.01, 1e-15);
    }
    EXPECT_TRUE(squares.outlines(std::vector<bool>(9)).empty());
-   expect_input_error([&] { squares.outlines(std::vector<bool>(8)); }, "8 cells, must be 9");
+   expect_input_error([&] { squares.outlines(std::vector<bool>(8)); }, "8 values, must be 9");
 
    // Some triangles run clockwise.
    HalfSpace disc = disc_of_triangles({1, 0.3}, {}, 3, 1);
@@ -460,7 +460,7 @@ TEST(HalfSpaceTriangles, SaysWhatItCannotTake)
    refused([](HalfSpace &bad) { bad.triangles(3, 1) = bad.triangles(3, 0); }, "has no area");
    refused([](HalfSpace &bad) { bad.vertices(3, 1) = NAN; }, "not finite");
    refused([](HalfSpace &bad) { bad.triangles.row(3) = bad.triangles.row(1); },
-           "triangles 1 and 3 lie on the same side of the edge");
+           "triangles 1 and 3 lie on the same side of their common edge");
    refused(
       [](HalfSpace &bad)
       {
@@ -475,7 +475,7 @@ TEST(HalfSpaceTriangles, SaysWhatItCannotTake)
       },
       "the triangles 3 and 4 lie on each other");
    refused([](HalfSpace &bad) { bad.triangles.resize(0, 3); },
-           "no rectangles and no triangles");
+           "neither rectangles nor triangles");
 }
 
 } // namespace

@@ -402,7 +402,7 @@ TEST_F(Interfaces, OnAPlaneOfSymmetryAgreeWithMultipliers)
          reduce({upper.condensed("pad"), lower.condensed()},
                 {between(0, upper.lines[0], 1, lower.lines[0])});
       },
-      "the contact node at (0, 0) is fixed along the line, and what it faces is not");
+      "the contact node at (0, 0) is fixed along the line, but the side that it faces is not");
    // Unless it is free which side has the nodes.
    {
       std::vector<Interface> one{
@@ -420,7 +420,7 @@ TEST_F(Interfaces, OnAPlaneOfSymmetryAgreeWithMultipliers)
          reduce({lower.condensed(), upper.condensed("pad")},
                 {between(1, upper.lines[0], 0, lower.lines[0])});
       },
-      "the contact node at (0, 0) is fixed along the line, and what it faces is not");
+      "the contact node at (0, 0) is fixed along the line, but the side that it faces is not");
    upper.fixed = {1};
    expect_input_error(
       [&]
@@ -897,7 +897,8 @@ TEST_F(Interfaces, HaveTheNodesOfTheSideThatCan)
    faces[2].slave = SlaveSide::second;
    agrees_with_multipliers(bodies, reduction, faces);
    faces.push_back(on(2, SlaveSide::finer));
-   expect_input_error([&] { reduce(condensed, faces); }, "body 'middle' there carry rows of");
+   expect_input_error([&] { reduce(condensed, faces); },
+                      "body 'middle' there are in contact by");
 }
 
 /// A side that is longer than the other: what nothing faces is counted.
@@ -927,11 +928,11 @@ TEST_F(Interfaces, RefuseWhatDoesNotFit)
       expect_input_error([&] { reduce({pad, disc}, faces); }, part);
    };
    refused({{"flank", {0, one}, {2, two}}},
-           "interface 'flank': a side is of body 2, must be from 0 to 1");
+           "interface 'flank': a side names body 2, must be from 0 to 1");
    refused({{"flank", {0, one}, {1, one}}},
            "interface 'flank' of body 'pad' and body 'disc': the node (0, 0) is none that body "
-           "'disc' was condensed to");
-   refused({{"floor", {1, two}, {}}}, "body 'pad' is at no interface");
+           "'disc' was not condensed to");
+   refused({{"floor", {1, two}, {}}}, "body 'pad' is in no interface");
    refused({}, "2 bodies and 0 interfaces");
    Truss overlapping({side({2, 0.3}, {0, 0.3}, 4)}, {1, -1});
    overlapping.hold();
@@ -1292,12 +1293,12 @@ TEST_F(Interfaces, ObstaclesUnderForcesAreInEquilibrium)
       [&] {
          rest.free_obstacles({{"D", 1, {{0, 0.0, up}}}});
       },
-      "a load pattern of that name is there already, and is controlled by displacement");
+      "a load pattern with this name exists already, and is controlled by displacement");
    expect_input_error(
       [&] {
          rest.free_obstacles({{"Q", 1, {{0, 0.0, up}}}, {"R", 1, {{0, 0.0, up}}}});
       },
-      "the bodies do not resist all of their motions");
+      "the bodies do not resist all motions of the obstacles");
 }
 
 /// Bolts that are tightened one after the other, under a load, and again: each has the force of
@@ -1379,7 +1380,8 @@ TEST_F(Interfaces, BoltsAreTightenedInTheOrderOfTheHistory)
    };
    refused({{}, {{"T", 1}}}, "the bolt 'S' is never tightened");
    refused({{}, {{"T", -1}, {"S", 1}}}, "the bolt 'T' is tightened to -1");
-   refused({{}, {{"T", 1}, {"S", 1}}, {{"T", 0}}}, "the bolt 'T' is loosened at the end");
+   refused({{}, {{"T", 1}, {"S", 1}}, {{"T", 0}}},
+           "the bolt 'T' is loosened at the last point");
 }
 
 /// A shank that pulls a free body down leaves it two motions of three.

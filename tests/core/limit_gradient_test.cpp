@@ -190,7 +190,7 @@ TEST(LimitGradient, NeedsALimitAndWhatFits)
       [&] {
          load_limit_gradient(given, report, {{MatrixXd::Zero(2, 2), {}, {}}});
       },
-      "stiffness change of 2");
+      "change of the stiffness is 2");
    report.status = LimitStatus::unlimited;
    report.message = "it holds any";
    const LimitGradient none = load_limit_gradient(given, report);

@@ -203,7 +203,7 @@ TEST(March, RefusesLoadsThatJump)
    state.time = 0;
    expect_input_error(
       [&] { march(problem, jumps, state); },
-      "'shear' is 0.2 at its first point, and 0 in the state that it goes on from");
+      "'shear' is 0.2 at its first point, and 0 in the state from which the march continues");
    state.time = 0.5; // half-way from 0.2 to nothing
    expect_input_error([&] { march(problem, jumps, state); },
                       "'shear' is 0.1 at time 0.5, and 0 in the state");
@@ -1747,8 +1747,9 @@ TEST(ContactState, WhatIsHeldDoesNotSlip)
    ReducedProblem problem = cattaneo_test::random_problem(3, 0.3, 0.5, random);
    hold(problem, {1});
    const Eigen::Vector3d slip(0.1, 0.2, 0.3);
-   expect_input_error([&] { ContactState::with_slip(problem, slip); },
-                      "contact state: row 1 of the slip is 0.2, must be 0: it is held");
+   expect_input_error(
+      [&] { ContactState::with_slip(problem, slip); },
+      "contact state: row 1 of the slip is 0.2, must be 0, because a support holds it");
    ContactState state = ContactState::with_slip(problem, Eigen::Vector3d(0.1, 0, 0.3));
    EXPECT_NO_THROW(state.validate(problem));
    state.v[1] = 1e-3;

@@ -597,7 +597,7 @@ TEST(Sensitivity, RefusesWhatDoesNotFit)
    expect_input_error([&] { of.slip(0, 8); }, "node 8");
    expect_input_error([&] { of.slip(0, 0, 1); }, "component 1");
    expect_input_error([&] { of.multiplier(0, "pull"); }, "pull");
-   expect_input_error([&] { of.slip(0, 0) / (0.0 * of.slip(0, 0)); }, "divided");
+   expect_input_error([&] { of.slip(0, 0) / (0.0 * of.slip(0, 0)); }, "the divisor is zero");
    expect_input_error([&] { trace.at(99); }, "99");
    Sensitivity sensitivity(c.problem, trace);
    Parameters change;
@@ -607,7 +607,7 @@ TEST(Sensitivity, RefusesWhatDoesNotFit)
       [&] {
          Sensitivity(c.problem, trace, {{MatrixXd::Zero(2, 2), {}, {}}});
       },
-      "stiffness change");
+      "change of the stiffness");
 }
 
 TEST(Sensitivity, DerivativesTimesChangesAreSummedOverAllParameters)
@@ -641,12 +641,13 @@ TEST(Sensitivity, ResponsesAreOfTheirOwnMarch)
                   other = Responses(two.problem, theirs).peak_pressure(theirs.last());
    Sensitivity sensitivity(one.problem, mine);
    EXPECT_TRUE(sensitivity.gradient(own).found);
-   expect_input_error([&] { sensitivity.gradient(other); }, "of another march");
-   expect_input_error([&] { sensitivity.gradient(2 * (other * other)); }, "of another march");
-   expect_input_error([&] { own + other; }, "of another march");
+   expect_input_error([&] { sensitivity.gradient(other); }, "belongs to another trace");
+   expect_input_error([&] { sensitivity.gradient(2 * (other * other)); },
+                      "belongs to another trace");
+   expect_input_error([&] { own + other; }, "belong to different traces");
    Parameters change;
    change.gap = VectorXd::Ones(one.problem.nodes());
    const TraceChange along = sensitivity.along(change);
    EXPECT_TRUE(std::isfinite(along.of(own)));
-   expect_input_error([&] { along.of(other); }, "of another march");
+   expect_input_error([&] { along.of(other); }, "belongs to another trace");
 }

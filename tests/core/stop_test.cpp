@@ -215,10 +215,10 @@ TEST(Streaming, AHistoryIsGoneOnWithOnlyIfItIsTheSame)
    EXPECT_EQ(std::count(before.begin(), before.end(), '\n'), 4);
    // A state of another march: this one never came to time 1.2, and had other loads at time 1.
    state.time = 1.2;
-   expect_input_error([&] { HistoryWriter(file, problem, state); }, "of another march");
+   expect_input_error([&] { HistoryWriter(file, problem, state); }, "belongs to another march");
    state.time = 1;
    state.multipliers[1] = 1e-17;
-   expect_input_error([&] { HistoryWriter(file, problem, state); }, "of another march");
+   expect_input_error([&] { HistoryWriter(file, problem, state); }, "belongs to another march");
    EXPECT_EQ(content(file), before);
    problem.patterns[1].name = "other";
    expect_input_error([&] { HistoryWriter(file, problem, state); }, "displacement other");
@@ -265,11 +265,11 @@ TEST(Streaming, RowsAreThereAsSoonAsTheyAreAdded)
    const std::string none = folder + "nowhere.csv";
    problem.position.resize(0, 0);
    expect_input_error([&] { NodeWriter(none, problem); },
-                      "no arc length, positions or weights");
+                      "must have arc lengths, positions and weights");
    problem.position = Eigen::MatrixXd::Zero(4, 2);
    problem.arc_length.resize(0);
    expect_input_error([&] { NodeWriter(none, problem); },
-                      "no arc length, positions or weights");
+                      "must have arc lengths, positions and weights");
    EXPECT_FALSE(std::filesystem::exists(none));
 }
 

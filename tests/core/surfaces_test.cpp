@@ -591,7 +591,7 @@ TEST(Surfaces, WrongSurfacesAreRefused)
    expect_input_error([] { straight_line({0, 1}, 1, Formulation::space); }, "it is in space");
    ContactLine line = straight_line({0, 1}, 1);
    line.formulation = Formulation::space;
-   expect_input_error([&] { line.validate(); }, "must be on a surface");
+   expect_input_error([&] { line.validate(); }, "must be given by a surface");
    // A normal component that a support holds cannot open.
    body.fix({body.nodes_of("BOTTOM").front()}, 2);
    const CondensedBody held = on_surface(body, "BOTTOM");

@@ -172,7 +172,8 @@ TEST(WearSensitivity, RefusesWhatHasNoDerivatives)
       [&] { trace_wear(c.problem, WearLaw::uniform(c.problem, 50), c.history, 3, c.settings); },
       "implicit");
    const MarchTrace plain = trace_march(c.problem, c.history);
-   expect_input_error([&] { Responses(c.problem, plain).worn_depth(0, 1, 0); }, "law of wear");
+   expect_input_error([&] { Responses(c.problem, plain).worn_depth(0, 1, 0); },
+                      "without a wear law");
    Parameters by;
    by.wear = VectorXd::Ones(7);
    expect_input_error([&] { Sensitivity(c.problem, plain).along(by); }, "law");

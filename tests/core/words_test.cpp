@@ -63,11 +63,10 @@ TEST(HistoryStatements, MistakesAreQuoted)
    refused("press=0; press", "--history 'press': 'press', must be PATTERN=number");
    refused("press=0; press=1x", "'press=1x': '1x' is not a number");
    refused("press=0; pres=1", "there is no load 'pres', must be one of: ");
-   refused("press=0; press=1 press=2", "'press' is there twice");
-   refused(
-      "press=1; press=2",
-      "--history: press is 1 at the first point, must be 0: the bodies start without load, "
-      "begin with 'press=0'");
+   refused("press=0; press=1 press=2", "'press' is named twice");
+   refused("press=1; press=2", "--history: press is 1 at the first point, must be 0, because "
+                               "the bodies start without load: "
+                               "begin with 'press=0'");
    refused("press=0", "--history has one point, must have two at least, as 'press=0; press=1'");
 }
 

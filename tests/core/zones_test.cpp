@@ -328,7 +328,7 @@ TEST(Zones, EndWhereAChainEnds)
       EXPECT_LT(open[1].to.position, s.problem.arc_length[10]);
       s.problem.chains.clear();
       expect_input_error([&] { zones(s.problem, s.state); },
-                         "does not say which nodes follow each other");
+                         "which say which nodes follow each other");
    }
 }
 

@@ -289,7 +289,7 @@ MISTAKES = [
     ({SUPPORT: "2"}, [], ["bodies.pad.support' '2'", "must be"]),
     ({SUPPORT: "2:z"}, [], ["bodies.pad.support' '2:z'", "x, y or xy"]),
     ({SUPPORT: "@1:x"}, [], ["@1", "must be a point"]),
-    ({SUPPORT: "@70,5:x"}, [], ["@70,5:x", "outside of the body", "reaches from"]),
+    ({SUPPORT: "@70,5:x"}, [], ["@70,5:x", "outside of the body", "extends from"]),
     ({LOAD: None}, [], ["no load"]),
     ({LOAD: {"P": 1}}, [], ["bodies.pad.load' is an object", "a string"]),
     ({LOAD: "P pressure 2"}, [], ["P pressure 2", "3 words", "PATTERN pressure WHERE p"]),
@@ -300,8 +300,8 @@ MISTAKES = [
     ({}, ["--history", "P=0; P=one"], ["history", "'one'", "not a number"]),
     ({}, ["--history", "P=1; P=2"], ["history", "first point", "must be 0", "begin with 'P=0'"]),
     ({}, ["--history", "P=0"], ["history has one point", "'P=0; P=1'"]),
-    ({}, ["--history", "P=0 P=1"], ["history 'P=0 P=1'", "'P' is there twice", "P=0; P=1"]),
-    ({}, ["--history", "P=0; P=1,P=1"], ["history 'P=1,P=1'", "'P' is there twice"]),
+    ({}, ["--history", "P=0 P=1"], ["history 'P=0 P=1'", "'P' is named twice", "P=0; P=1"]),
+    ({}, ["--history", "P=0; P=1,P=1"], ["history 'P=1,P=1'", "'P' is named twice"]),
     ({}, ["--increments", "99999999999"], ["--increments", "99999999999", "at most 2147483647"]),
     ({}, ["--edges", "--order", 2], ["--edges", "has no value"]),
     ({}, ["--edges"], ["--edges", "has no value"]),
@@ -424,7 +424,7 @@ UNJOINED = gmsh(NODES + ["1 0 0", "1 1 0"], ["1 2 1 5 1 2", "1 2 1 5 7 3", "1 2 
     ("groups.msh", gmsh(NODES, WHOLE + ["1 2 7 5 2 1"]),
      ["one edge twice", "element 1 of attribute 1", "element 9 of attribute 7", "one physical group"]),
     ("twice.msh", gmsh(NODES, WHOLE + ["1 2 1 5 1 2"]), ["one edge twice"]),
-    ("unjoined.msh", UNJOINED, ["contact line", "two nodes lie on one another", "not joined", "Coherence Mesh"]),
+    ("unjoined.msh", UNJOINED, ["contact line", "two nodes coincide", "not joined", "Coherence Mesh"]),
     ("right.msh", SQUARES, []),
 ], ids=lambda value: value if isinstance(value, str) and "." in value and len(value) < 20 else "")
 def test_mistakes_in_gmsh_name_their_remedy(run, name, text, words):
@@ -616,7 +616,7 @@ def test_warns_of_elements_that_miss_the_curves_of_their_mesh(run, bent):
     warnings = run.case(case, "--order", 1)["warnings"]
     assert len(warnings) == (1 if bent else 0)
     if bent:
-        assert "curved.msh' is curved, elements of order 1" in warnings[0]
+        assert "curved.msh' is curved, but elements of order 1" in warnings[0]
         assert "use option -order 2" in warnings[0]
 
 

@@ -44,7 +44,7 @@ def test_a_bolt_that_would_push_ends_the_march(run):
     falls_loose = 40 / SHARE
     case = {**columns_case(run), "history": ["bolt=0", "bolt=1", "F=-100"]}
     got = run.case(case, code=2)
-    assert got["status"] == "stopped" and "the bolt 'bolt' carries nothing any more and would push" in got["message"]
+    assert got["status"] == "stopped" and "the bolt 'bolt' has no tension left and would be compressed" in got["message"]
     near(got["event_loads"]["F"], -falls_loose, 1e-8 * falls_loose)
     near(got["event_time"], 1 + falls_loose / 100, 1e-8)
     near(got["loads"]["F"], -falls_loose, 1e-8 * falls_loose)
@@ -186,9 +186,9 @@ def test_bolts_that_are_wrong_are_told(run):
     case = {**columns_case(run), "history": ["bolt=0", "bolt=1"]}
     for changes, said in (({"history": ["F=0", "F=1"]}, "the bolt 'bolt' is never tightened"),
                           ({"history": ["bolt=0", "bolt=-1"]}, "is tightened to -1, must not be negative"),
-                          ({"history": ["bolt=0", "bolt=1", "bolt=0"]}, "is loosened at the end"),
+                          ({"history": ["bolt=0", "bolt=1", "bolt=0"]}, "is loosened at the last point"),
                           ({"history": ["bolt=1", "bolt=1"]}, "is 1 at the first point, must be 0"),
-                          ({"history": ["bolt=0", "bolt=1", "bolt=2", "bolt=1"], "cycle-start": 1}, "changes within the cycle"),
+                          ({"history": ["bolt=0", "bolt=1", "bolt=2", "bolt=1"], "cycle-start": 1}, "changes its preload within the cycle"),
                           ({"bolts.bolt.pretension": 3}, "has both of the keys preload and pretension"),
                           ({"bolts.bolt.preload": None}, "has none of the keys preload and pretension")):
         assert said in run.refused(changed(case, changes)), said

@@ -75,9 +75,9 @@ def test_what_moves_before_anything_presses(run, two):
     for history in (["P=0", "Q=1", "P=1"], ["P=0", "Q=0", "Q=1", "P=1"]):
         got = run.case({**two, "history": history}, code=2)
         assert got["status"] == "gross sliding"
-        assert f"nothing presses yet: load 'P' begins towards point {len(history) - 1} of the history" in got["message"], got["message"]
+        assert f"no load presses the bodies together yet: load 'P' grows on the way to point {len(history) - 1} of the history" in got["message"], got["message"]
     pulled = run.case(changed(two, {"bodies.pad.load": ["P pressure 3 -1"], "history": ["P=0", "P=1"]}), code=2)
-    assert "nothing presses the bodies together, and no load comes later: is the sign of one of them wrong?" in pulled["message"]
+    assert "no load presses the bodies together, and no other load comes later: does a load have the wrong sign?" in pulled["message"]
     # Where something presses nothing of the kind is said.
     slid = run.case(changed(two, {"history": ["P=0", "P=1", "Q=20"]}), code=2)
     assert slid["status"] == "gross sliding" and "presses" not in slid["message"]

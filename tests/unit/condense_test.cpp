@@ -205,8 +205,7 @@ TEST(Condensation, RefusesWhatNothingHolds)
 {
    mfem::Mesh mesh = block("quads");
    ElasticBody body(mesh, 1, Material{});
-   expect_input_error([&] { condense(body, ContactLine()); },
-                      "contact line: there are no nodes");
+   expect_input_error([&] { condense(body, ContactLine()); }, "contact line: it has no nodes");
 
    // One contact node holds two motions; the body can still turn about it.
    ContactLine one = contact_line(body, 1);
@@ -699,7 +698,7 @@ TEST(SparseFactor, SaysWhatIsWrongWithItsInput)
       };
       refused(K, {0, 4}, 0, 0, "row 4 to keep, must be from 0 to 3");
       refused(K, {-1}, 0, 0, "row -1 to keep, must be from 0 to 3");
-      refused(K, {1, 2, 1}, 0, 0, "row 1 is to be kept twice");
+      refused(K, {1, 2, 1}, 0, 0, "row 1 is in the list of rows to keep twice");
       refused(K, {0}, -1, 0, "-1 trailing rows, must be from 0 to 1");
       refused(K, {0}, 1, -1, "shift is -1");
       refused(oblong, {0}, 0, 0, "the matrix (2×3) must be square");
@@ -720,7 +719,7 @@ TEST(SparseFactor, SaysWhatIsWrongWithItsInput)
                   1e-15);
       const SparseFactor factor(view(K), {2, 3}, 1, 0, backend);
       expect_input_error([&] { factor.solve(MatrixXd::Ones(3, 1)); },
-                         "right-hand sides of 3 rows for a factor of 2");
+                         "right-hand sides have 3 rows, must have as many as the factor, 2");
       EXPECT_LT((factor.solve(MatrixXd::Ones(2, 1)) - Eigen::Vector2d(1.0 / 3, 0.25)).norm(),
                 1e-15);
    }

@@ -174,12 +174,12 @@ TEST(DeckMesh, RefusesInOneSentenceWithTheLine)
         "element 8 is a CPE4 of 3 nodes, must have 4");
    says(both + "*ELEMENT, TYPE=CPE4\n8, 1, 2, 5, 9\n", "element 8 has node 9, which *NODE");
    says(both + "*ELEMENT, TYPE=CAX4\n8, 1, 2, 5, 4\n", "plane and axisymmetric");
-   says(both + "*ELEMENT, TYPE=T3D2\n8, 2, 5\n", "a line (T3D2), is no edge");
+   says(both + "*ELEMENT, TYPE=T3D2\n8, 2, 5\n", "a line (T3D2), must be an edge");
    says(both + "*ELEMENT, TYPE=T3D2, ELSET=T\n8, 1, 2\n*SOLID SECTION, ELSET=T\n*SOLID "
                "SECTION, ELSET=LEFT\n*SOLID SECTION, ELSET=RIGHT\n",
         "is a T3D2 with a *SOLID SECTION");
    says(both + "*SURFACE, NAME=A\n7, S2\n",
-        "line 14: face S2 of element 7 of surface 'A' is inside of the body");
+        "line 14: face S2 of element 7 of surface 'A' is not on the boundary of the body");
    says(both + "*SURFACE, NAME=A\n7, S5\n", "face 'S5' of surface 'A', must be S1 to S4");
    says(both + "*SURFACE, NAME=A\nnone, S1\n", "line 14: there is no element set 'none'");
    says(both + "*ELSET, ELSET=A\n8\n", "line 14: there is no element 8");
@@ -262,9 +262,9 @@ TEST(DeckMesh, HasInstancesAsBodies)
    // It changes with temperature.
    EXPECT_EQ(mesh_names(file, {"WEDGE-1"}).materials.at(0).young, 0);
    expect_input_error([&] { read_mesh(file); },
-                      "has 3 instances, PLATE-1, PLATE-2, WEDGE-1: each body must say which");
+                      "has 3 instances, PLATE-1, PLATE-2, WEDGE-1: each body must name one");
    expect_input_error([&] { read_mesh(file, nullptr, {"Plate"}); },
-                      "there is no instance and no set of elements 'Plate', must be one of: "
+                      "has no instance and no set of elements 'Plate', must be one of: "
                       "PLATE-1, PLATE-2, WEDGE-1");
    std::string askew = assembly;
    askew.replace(askew.find("10., 1., 1., 90."), 16, "10., 2., 1., 90.");
@@ -281,7 +281,8 @@ TEST(DeckMesh, HasSetsOfElementsAsBodies)
               "*Element, type=CPE6, elset=right\n8, 2, 3, 5, 8, 10, 11\n"
               "*Nset, nset=bottom\n1, 2, 8, 3\n*Surface, name=seam\nleft, S2\nright, S3\n");
    // As one body it would have the seam inside, and elements of two orders.
-   expect_input_error([&] { read_mesh(file); }, "of surface 'SEAM' is inside of the body");
+   expect_input_error([&] { read_mesh(file); },
+                      "of surface 'SEAM' is not on the boundary of the body");
    EXPECT_EQ(read_mesh(file, nullptr, {"left"}).GetNE(), 1);
    EXPECT_DOUBLE_EQ(read_mesh(file, nullptr, {"right"}).GetElementVolume(0), 0.5);
    for (const char *part : {"left", "right"})

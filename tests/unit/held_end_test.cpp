@@ -169,10 +169,10 @@ TEST(HeldEnd, APlaneOfSymmetryIsOneToAHundredthOfADegree)
       Reduction standing;
       if (symmetric)
       {
-         expect_input_error([&] { standing = reduce(block, ground); }, "its plane of symmetry");
+         expect_input_error([&] { standing = reduce(block, ground); }, "a plane of symmetry");
          const std::vector<Interface> foot{{"foot", {0, of.line}, {1, {}}}};
          expect_input_error([&] { reduce(std::vector<CondensedBody>{block}, foot, ground); },
-                            "its plane of symmetry");
+                            "a plane of symmetry");
       }
       else { standing = reduce(block, ground); }
    }
@@ -250,7 +250,7 @@ TEST(HeldEnd, FieldsAndMatricesFollowANodeThatIsHeldAskew)
    Reduction reduction = reduce(block);
    reduction.add_obstacle_motion("up", 0.0, 1.0);
    expect_input_error([&] { reduction.add_obstacle_motion("along", 1.0, 0.0); },
-                      "along the component that is fixed at the node (0, 0)");
+                      "along the fixed component of the node (0, 0)");
 }
 
 /// How friction is shared with a support is not determined, which is said.

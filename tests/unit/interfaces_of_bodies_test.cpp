@@ -287,12 +287,12 @@ TEST(InterfacesOfBodies, NameWhatDoesNotFit)
       [&] {
          reduce(stack.named, {{"low", {0, top}, {1, bottom}}});
       },
-      "body 'plate 3' is at no interface");
+      "body 'plate 3' is in no interface");
    expect_input_error(
       [&] {
          reduce(stack.named, {{"low", {0, top}, {3, bottom}}});
       },
-      "interface 'low': a side is of body 3");
+      "interface 'low': a side names body 3");
    expect_input_error(
       [&] {
          reduce({stack.named[0], stack.named[1]}, {{"low", {0, top}, {1, top}}});

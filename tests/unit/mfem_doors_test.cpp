@@ -106,7 +106,7 @@ TEST(MfemDoors, ForcesThatDoNotFitAreRefused)
    forces.SetSize(size);
    forces = 0.0;
    forces(3) = nan_value;
-   expect_input_error([&] { body.add_forces("P", forces); }, "that of true dof 3 is nan");
+   expect_input_error([&] { body.add_forces("P", forces); }, "the force on true dof 3 is nan");
    EXPECT_TRUE(body.patterns().empty());
 
    mfem::H1_FECollection collection(1, 2);
@@ -466,7 +466,7 @@ TEST(MfemDoors, InitialStrainsThatNothingCouldMeanAreRefused)
    expect_input_error([&] { twisting.add_initial_strain("T", 1.0); }, "the body twists");
    ElasticBody own(body.space(), body.stiffness());
    expect_input_error([&] { own.add_initial_strain("T", 1.0); },
-                      "operator that was given as a matrix");
+                      "stiffness that was given as a matrix");
 
    // Stresses need to know how hot it is.
    ElasticBody hot(mesh, 1, Material{});
@@ -511,7 +511,8 @@ TEST(MfemDoors, DisplacementsOfAGridFunctionAreThoseOfItsComponents)
       elsewhere = 0.0;
       expect_input_error([&] { body.add_displacement("P", 3, elsewhere); },
                          "displacement 'P': the grid function is on a space of " +
-                            std::to_string(other.GetVSize()) + " dofs that is not the body's");
+                            std::to_string(other.GetVSize()) +
+                            " dofs, must be on the space of the body");
       u = nan_value;
       expect_input_error([&] { body.add_displacement("P", 3, u); }, "must be finite");
    }

@@ -251,13 +251,13 @@ TEST(ObstacleMotion, RefusesWhatMeansNothing)
    body.add_pressure("P", 2, 1.0);
    Reduction reduction = reduce(condense(body, contact_line(body, 1)));
    expect_input_error([&] { reduction.add_obstacle_motion("P", 0.0, 1.0); },
-                      "a load pattern of that name is there already");
+                      "a load pattern with this name exists already");
    expect_input_error([&] { reduction.add_obstacle_motion("d", 0.0, std::nan("")); },
                       "must be finite");
    expect_input_error([&] { reduction.add_obstacle_motion("d", 0.0, 1.0, 1.0); },
                       "without torsion");
    expect_input_error([&] { reduction.add_obstacle_motion("d", 1.0, 0.0); },
-                      "along the component that is fixed at the node (0, 0)");
+                      "along the fixed component of the node (0, 0)");
    EXPECT_EQ(reduction.problem.patterns.size(), 1u);
    reduction.add_obstacle_motion("up", 0.0, 1.0);
    reduction.problem.validate();

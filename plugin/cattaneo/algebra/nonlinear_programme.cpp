@@ -160,21 +160,22 @@ std::string in_words(Ipopt::ApplicationReturnStatus status, int max_iterations)
    switch (status)
    {
    case Solved_To_Acceptable_Level:
-      return "the tolerance was nearly reached, and no more";
+      return "only a looser tolerance was reached (Ipopt's acceptable level)";
    case Infeasible_Problem_Detected:
-      return "no values of the variables were found that hold all limits: they may contradict "
-             "each other or the bounds";
+      return "no values of the variables were found that meet all limits: the limits may "
+             "contradict each other or the bounds";
    case Search_Direction_Becomes_Too_Small:
    case Restoration_Failed:
    case Error_In_Step_Computation:
-      return "no step from there is better, though the conditions of optimality do not hold: "
-             "derivatives may jump there";
+      return "the last values could not be improved, although they do not meet the conditions "
+             "of optimality: derivatives may jump there";
    case Diverging_Iterates:
       return "the variables grow without end";
    case Maximum_Iterations_Exceeded:
-      return "not done after " + std::to_string(max_iterations) + " iterations, which is all";
+      return "not done after " + std::to_string(max_iterations) +
+             " iterations, the largest number allowed";
    case Not_Enough_Degrees_Of_Freedom:
-      return "more limits hold as equations than there are variables";
+      return "there are more equations among the limits than variables";
    case Invalid_Number_Detected:
       return "a value or a derivative is not known or not finite";
    case Insufficient_Memory:

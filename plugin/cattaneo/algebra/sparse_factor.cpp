@@ -39,7 +39,8 @@ struct LowerTriangle
       {
          require(keep[a] >= 0 && keep[a] < K.rows(), "sparse factor: row ", keep[a],
                  " to keep, must be from 0 to ", K.rows() - 1);
-         require(position[keep[a]] < 0, "sparse factor: row ", keep[a], " is to be kept twice");
+         require(position[keep[a]] < 0, "sparse factor: row ", keep[a],
+                 " is in the list of rows to keep twice, must be there once");
          position[keep[a]] = a;
       }
       start.resize(size + 1);
@@ -534,8 +535,8 @@ SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, in
            "sparse factor: ", trailing, " trailing rows, must be from 0 to ", keep.size());
    require(std::isfinite(shift) && shift >= 0, "sparse factor: shift is ", shift,
            ", must be finite and not negative");
-   require(nodes.empty() || nodes.size() == keep.size(), "sparse factor: nodes of ",
-           nodes.size(), " rows, must be of ", keep.size(), " or of none");
+   require(nodes.empty() || nodes.size() == keep.size(), "sparse factor: nodes are given for ",
+           nodes.size(), " rows, must be given for all ", keep.size(), " or for none");
    LowerTriangle lower(K, keep, trailing, shift);
 #ifdef CATTANEO_USE_CHOLMOD
    if (backend == Backend::automatic)
@@ -578,8 +579,8 @@ Eigen::MatrixXd SparseFactor::push(const Eigen::MatrixXd &x) const
 
 Eigen::MatrixXd SparseFactor::solve(const Eigen::MatrixXd &rhs) const
 {
-   require(rhs.rows() == rows(), "sparse factor: right-hand sides of ", rhs.rows(),
-           " rows for a factor of ", rows());
+   require(rhs.rows() == rows(), "sparse factor: right-hand sides have ", rhs.rows(),
+           " rows, must have as many as the factor, ", rows());
    return impl_->solve(rhs);
 }
 

@@ -36,7 +36,7 @@ std::string AssembledBody::eliminated_warning() const
    if (rows.empty()) { return ""; }
    return eliminated_rows(rows.size(), places.formulation, places.component[rows[0]],
                           places.called(rows[0])) +
-          ": they are taken for supports that were eliminated, and are fixed";
+          ": these rows are taken for eliminated supports, and are fixed";
 }
 
 std::string eliminated_rows(std::size_t count, Formulation formulation, int component,
@@ -87,8 +87,8 @@ void AssembledBody::validate() const
          require(false, "assembled body: the stiffness is not symmetric: entry (", e.row(),
                  ", ", column, ") is ", by_columns.coeff(e.row(), column),
                  " and its mirror image ", by_columns.coeff(column, e.row()),
-                 ", they may differ by ", 1e-10 * largest,
-                 " (are both of its triangles there?)");
+                 ", they must agree within ", 1e-10 * largest,
+                 " (does the matrix have both triangles?)");
       }
       const double diagonal = by_columns.coeff(column, column);
       require(diagonal >= 0, "assembled body: entry (", column, ", ", column,
@@ -96,19 +96,20 @@ void AssembledBody::validate() const
    }
    require(places.x.size() == size && places.y.size() == size &&
               static_cast<int>(places.component.size()) == size,
-           "assembled body: places of ", places.x.size(), ", ", places.y.size(), " and ",
-           places.component.size(), " dofs, the stiffness has ", size);
+           "assembled body: x, y and component are given for ", places.x.size(), ", ",
+           places.y.size(), " and ", places.component.size(), " dofs, must be given for all ",
+           size, " of the stiffness");
    const Eigen::Index heights = places.formulation == Formulation::space ? size : 0;
-   require(places.z.size() == heights, "assembled body: z of ", places.z.size(),
-           " dofs, must be of ", heights, " (of all in space, else of none)");
+   require(places.z.size() == heights, "assembled body: z is given for ", places.z.size(),
+           " dofs, must be given for ", heights, " (all dofs in space, else none)");
    std::vector<bool> held(size, false);
    for (int dof = 0; dof < size; ++dof)
    {
       require(places.component[dof] >= 0 && places.component[dof] < components,
               "assembled body: dof ", dof, " has component ", places.component[dof],
               ", must be from 0 to ", components - 1);
-      require(places.place(dof).allFinite(), "assembled body: the place of dof ", dof,
-              " is not finite");
+      require(places.place(dof).allFinite(), "assembled body: dof ", dof,
+              " has a coordinate that is not finite");
    }
    for (std::size_t k = 0; k < fixed.size(); ++k)
    {
@@ -124,9 +125,9 @@ void AssembledBody::validate() const
          K.diagonal(dof) == 0, "assembled body: row ", dof, " of the stiffness, component ",
          component_name(places.formulation, places.component[dof]), " of the node ",
          places.called(dof), ", holds nothing but its diagonal ", K.diagonal(dof),
-         ", as that of a support which was eliminated: pass the stiffness as assembled and "
+         ", like the row of an eliminated support: pass the stiffness as assembled and "
          "fix the row, or say that its supports are eliminated already (supports_left_out of "
-         "NodalStiffness, or AssembledBody::grounded), such rows are fixed then");
+         "NodalStiffness, or AssembledBody::grounded); such rows are then fixed");
    }
    if (const auto alone = alone_on_a_slope(stiffness, places, fixed))
    {
@@ -152,7 +153,7 @@ void AssembledBody::validate() const
       for (int dof = 0; load.control == Control::displacement && dof < size; ++dof)
       {
          require(held[dof] || load.values[dof] == 0, "assembled body: load '", load.name,
-                 "' displaces dof ", dof, ", which is not fixed, it must be");
+                 "' displaces dof ", dof, ", which must be among the fixed dofs");
          if (load.values[dof] == 0) { continue; }
          moves = true;
          felt = felt || is_linked(stiffness, places, dof, most, diagonals);
@@ -163,8 +164,8 @@ void AssembledBody::validate() const
    {
       require(block.motion.size() == size && block.motion.allFinite() &&
                  !block.motion.isZero(0) && std::isfinite(block.force),
-              "assembled body: a block's motion has ", block.motion.size(), " values, must be ",
-              size, ", all finite and not all zero, and its force be finite");
+              "assembled body: a block's motion has ", block.motion.size(),
+              " values, must have ", size, ", finite and not all zero, and a finite force");
       for (int dof = 0; dof < size; ++dof)
       {
          require(held[dof] || block.motion[dof] == 0,
@@ -174,8 +175,8 @@ void AssembledBody::validate() const
       const auto same = [&](const BodyLoad &load)
       { return load.name == block.load && load.control == Control::force; };
       require(block.load.empty() || std::any_of(loads.begin(), loads.end(), same),
-              "assembled body: the load '", block.load,
-              "' of a block is not there, must be one of forces (which may be zero)");
+              "assembled body: a block is moved by the load '", block.load,
+              "', must be a load of forces of the body (which may be zero)");
    }
 }
 

@@ -65,7 +65,7 @@ struct AssembledBody
    void validate() const;
    /// The message about a load that displaces dofs without coupling to others.
    static constexpr const char *feels_nothing =
-      "moves nothing, the rows of the displaced dofs hold nothing but a diagonal: was the "
+      "moves nothing, because the rows of the displaced dofs have only a diagonal: was the "
       "matrix eliminated? Pass it as assembled (SpMat() after Finalize)";
 };
 

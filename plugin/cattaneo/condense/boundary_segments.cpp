@@ -53,13 +53,12 @@ void check_joined(const ContactLine &line, const std::string &where)
       for (auto other = one + 1; other != along.end() && other->first - one->first <= farthest;
            ++other)
       {
-         require(
-            (node.position - other->second->position).norm() >
-               near * std::min(node.spacing, other->second->spacing),
-            where, ": two nodes lie on one another at ", node.position,
-            ", the elements there are not joined: if these are two lips that touch, name "
-            "each lip by itself and make a contact line of each; if the body is one piece, "
-            "make them one node (in Gmsh: Coherence Mesh)");
+         require((node.position - other->second->position).norm() >
+                    near * std::min(node.spacing, other->second->spacing),
+                 where, ": two nodes coincide at ", node.position,
+                 ", but their elements are not joined. If two faces touch there, name each "
+                 "face by itself and make a contact line of each; if the body is one piece, "
+                 "merge the nodes (in Gmsh: Coherence Mesh)");
       }
    }
 }
@@ -79,7 +78,7 @@ std::vector<std::vector<const Segment *>> chained(const std::vector<Segment> &se
          require(end == &s.front() ? starting.emplace(end->id, &s).second
                                    : ending.insert(end->id).second,
                  where, ": more than two boundary elements meet at ", end->node.position,
-                 ", or one is there twice");
+                 ", or one is listed twice; at most two may meet at a node");
       }
    }
    std::set<const Segment *> used;
@@ -199,7 +198,7 @@ void give_weights_of_axis(std::vector<SegmentNode> &nodes, const std::string &wh
          continue;
       }
       require(next < nodes.size() || i > 0, where, ": the node at ", nodes[i].node.position,
-              " is alone on the axis");
+              " is the only one, and lies on the axis; a contact line needs more nodes");
       nodes[next < nodes.size() ? next : i - 1].node.weight += nodes[i].node.weight;
    }
 }

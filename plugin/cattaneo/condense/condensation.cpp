@@ -142,10 +142,9 @@ std::vector<int> ContactDofs::free() const
 {
    std::vector<int> dofs;
    for (int position : free_positions()) { dofs.push_back(all[position]); }
-   require(
-      !dofs.empty(), "condense: all components of all ", all.size(),
-      " contact dofs are fixed, one at least must be free: supports hold all of the part of "
-      "the boundary that is named as contact, is it the one that touches?");
+   require(!dofs.empty(), "condense: all components of all ", all.size(),
+           " contact dofs are fixed, at least one must be free: is the boundary part that is "
+           "named as contact the one that touches?");
    return dofs;
 }
 
@@ -186,7 +185,7 @@ void ContactDofs::move(int position, Eigen::Index load, double by, const Trace &
    if (trace.formulation == Formulation::space)
    {
       refuse_motion(trace, position,
-                    "is displaced " + pattern + ", which is not done in space");
+                    "is displaced " + pattern + ", which is not supported in space");
    }
    if (moved.size() == 0)
    {

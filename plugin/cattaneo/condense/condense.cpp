@@ -108,10 +108,11 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
    {
       made->shift += body.K.diagonal(dof) / static_cast<double>(contact.size());
    }
-   require(made->shift >= 0, "condense: the stiffness of the contact nodes is negative, ",
+   require(made->shift >= 0,
+           "condense: the stiffness of the contact nodes has a negative mean diagonal, ",
            made->shift,
-           " in the mean of its diagonal; forces that displacements take are K u, "
-           "with K positive semidefinite: its sign may be the other");
+           ", must be positive semidefinite (K u are the forces that cause the displacements "
+           "u): is its sign wrong?");
    try
    {
       made->factor = std::make_unique<SparseFactor>(
@@ -121,10 +122,11 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
    catch (const NotPositiveDefinite &error)
    {
       const DofPlaces &places = body.places;
-      require(false, "condense: the stiffness is not positive definite at component ",
-              component_name(places.formulation, places.component[error.row]), " of the node ",
-              places.called(error.row),
-              ", it must be for every motion that leaves the supports at rest");
+      require(
+         false, "condense: the stiffness is not positive definite at component ",
+         component_name(places.formulation, places.component[error.row]), " of the node ",
+         places.called(error.row),
+         ", must be positive definite for all displacements that leave the supports at rest");
    }
    return made;
 }
@@ -215,10 +217,11 @@ void require_in_place(const Trace &trace, const DofPlaces &places)
       {
          const int dof = trace.dofs(i, c);
          require(places.component[dof] == c && (places.place(dof) - at).norm() <= allowed,
-                 "condense: dof ", dof, " of component ", component_name(trace.formulation, c),
-                 " of node ", i, " of the line, at ", trace.called(i), ", is component ",
+                 "condense: dof ", dof, ", given as component ",
+                 component_name(trace.formulation, c), " of node ", i, " of the line, at ",
+                 trace.called(i), ", is component ",
                  component_name(trace.formulation, places.component[dof]), " of the node ",
-                 places.called(dof), " of the body, must be the same");
+                 places.called(dof), " of the body, both must be the same");
       }
    }
 }

@@ -24,7 +24,7 @@ void check_elements(const ContactLine &line, const LineChain &chain)
       const auto count = static_cast<Eigen::Index>(element.nodes.size());
       require(count >= 2 && element.points.cols() == count, "contact line: element ", e,
               " of the chain from node ", chain.first, " has ", count, " nodes and ",
-              element.points.cols(), " points, must have as many and at least two");
+              element.points.cols(), " points, must have equally many, at least two");
       for (Eigen::Index a = 0; a < count; ++a)
       {
          const Eigen::Index node = element.nodes[a];
@@ -187,16 +187,16 @@ const LineChain &ContactLine::chain_of(Eigen::Index node) const
 
 void ContactLine::validate() const
 {
-   require(!nodes.empty(), "contact line: there are no nodes, must be at least one");
+   require(!nodes.empty(), "contact line: it has no nodes, must have at least one");
    require(formulation != Formulation::space,
-           "contact line: it is of a body in space, whose contact must be on a surface");
+           "contact line: the body is in space, where contact must be given by a surface");
    for (Eigen::Index i = 0; i < size(); ++i)
    {
       const LineNode &node = nodes[i];
       const Eigen::Vector2d &at = node.position;
       require(at.allFinite() && (formulation == Formulation::plane || at[0] > 0),
               "contact line: node ", i, " is at ", at,
-              ", must be finite, and beyond the axis x = 0 if there is one");
+              ", must be finite, and have x > 0 if there is an axis");
       require(std::abs(node.tangent.norm() - 1) <= 1e-9, "contact line: the tangent at ", at,
               " has the length ", node.tangent.norm(), ", must be 1");
       require(node.weight > 0 && std::isfinite(node.weight),
@@ -257,7 +257,7 @@ void bend_elements(ContactLine &line, const std::vector<SideChord> &chords)
 
 ContactLine joined(const std::vector<ContactLine> &lines)
 {
-   require(!lines.empty(), "contact lines to be joined: there are none, must be at least one");
+   require(!lines.empty(), "contact lines to be joined: none is given, must be at least one");
    ContactLine all;
    all.formulation = lines.front().formulation;
    all.as_meshed = std::all_of(lines.begin(), lines.end(),
@@ -265,8 +265,9 @@ ContactLine joined(const std::vector<ContactLine> &lines)
    std::set<std::array<int, 2>> known;
    for (const ContactLine &line : lines)
    {
-      require(line.formulation == all.formulation, "contact lines to be joined: they are ",
-              name(all.formulation), " and ", name(line.formulation), ", must be the same");
+      require(line.formulation == all.formulation, "contact lines to be joined: one is ",
+              name(all.formulation), ", another ", name(line.formulation),
+              ", all must be of one kind");
       line.validate();
       for (LineChain chain : line.chains)
       {

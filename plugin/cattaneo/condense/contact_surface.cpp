@@ -78,7 +78,7 @@ Eigen::VectorXd ContactSurface::weights() const
 
 void ContactSurface::validate() const
 {
-   require(!nodes.empty(), "contact surface: there are no nodes");
+   require(!nodes.empty(), "contact surface: it has no nodes, must have at least one");
    for (Index i = 0; i < size(); ++i)
    {
       const SurfaceNode &node = nodes[i];
@@ -88,7 +88,7 @@ void ContactSurface::validate() const
       const double off =
          (node.frame * node.frame.transpose() - Matrix3d::Identity()).cwiseAbs().maxCoeff();
       require(off < 1e-9 && node.frame.determinant() > 0, where,
-              " has a frame that is no right-handed one of unit vectors");
+              " has a frame that must be right-handed, of three orthogonal unit vectors");
       require(node.weight > 0 && std::isfinite(node.weight) && node.spacing > 0 &&
                  std::isfinite(node.spacing),
               where, " has the weight ", node.weight, " and the spacing ", node.spacing,
@@ -125,7 +125,7 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
                           const std::function<Vector3d(std::size_t)> &inside,
                           const std::string &where)
 {
-   require(!faces.empty(), where, ": there is no face, must be one at least");
+   require(!faces.empty(), where, ": it has no face, must have at least one");
    ContactSurface surface;
    std::map<int, Index> number;
    std::vector<Vector3d> area;
@@ -178,7 +178,8 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
    {
       SurfaceNode &own = surface.nodes[i];
       require(area[i].norm() > 0.1 * own.weight, where, ": the faces at the node ",
-              place_text(own.position, Formulation::space), " look in opposite directions");
+              place_text(own.position, Formulation::space),
+              " have opposite normals: number the nodes of all faces in the same sense");
       own.frame = frame_of(area[i].normalized());
    }
    surface.validate();

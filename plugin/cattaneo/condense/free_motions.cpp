@@ -100,7 +100,7 @@ FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> 
                  " dofs) and contact nodes (", contact.size() / components(places.formulation),
                  ") together leave ", still.cols(), " rigid motion(s) free",
                  parts.size() > 1 ? " of the separate part" : "", " of the body with the node ",
-                 places.called(dof), ", must leave none");
+                 places.called(dof), ", must leave none free");
       }
       // Elements of lower order than their geometry resist rotation a little: no equilibrium
       // there.

@@ -180,8 +180,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       if (inside) { segments.push_back(segment(body, i, edge)); }
    }
    share(body.ranks(), segments);
-   require(!segments.empty(), where, ": there are no boundary elements inside the ",
-           describe(part));
+   require(!segments.empty(), where, ": no boundary elements lie within the ", describe(part));
    return line_of(segments, ways_on(body, segments), body.formulation(), where);
 }
 

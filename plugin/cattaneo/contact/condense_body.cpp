@@ -307,7 +307,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    if (body.ranks().distributed() && body.dofs() > settings.direct_dofs)
    {
       require(body.blocks().empty(),
-              "condense: the body has guides, which only a factor knows: "
+              "condense: a body with guides can be condensed by a factor only: "
               "CondenseSettings::direct_dofs must be above its ",
               body.dofs(), " dofs");
       require_not_eliminated(body);

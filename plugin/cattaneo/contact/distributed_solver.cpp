@@ -71,7 +71,9 @@ mfem::Vector DistributedSolver::solve(mfem::Vector b, double to, Counters &count
       solver.GetConverged(), "condense: ", max_iterations_,
       " iterations of conjugate gradients with BoomerAMG did not reach a relative residual "
       "of ",
-      to, " (", solver.GetFinalNorm(), " left): is the body held, and its mesh sound?");
+      to, " (", solver.GetFinalNorm(),
+      " was reached): does the body have supports, and is its mesh free of degenerate "
+      "elements?");
    clear_held(x);
    return x;
 }

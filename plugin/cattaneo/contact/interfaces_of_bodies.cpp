@@ -14,8 +14,8 @@ Reduction reduce(const std::vector<NamedBody> &bodies,
    {
       if (of.body == -1) { return InterfaceSide(); }
       require(of.body >= 0 && of.body < count, "interface '", interface.name,
-              "': a side is of body ", of.body, ", must be from 0 to ", count - 1,
-              ", or -1 for a rigid obstacle as the second");
+              "': a side names body ", of.body, ", must be from 0 to ", count - 1,
+              ", or -1 for a rigid obstacle as the second side");
       lines[of.body].push_back(contact_line(*bodies[of.body].body, of.part));
       lines[of.body].back().as_meshed = interface.as_meshed;
       return InterfaceSide{of.body, lines[of.body].back()};
@@ -31,7 +31,8 @@ Reduction reduce(const std::vector<NamedBody> &bodies,
    for (int b = 0; b < count; ++b)
    {
       require(!lines[b].empty(), "reduce: body '", bodies[b].name,
-              "' is at no interface, nothing touches it: it must be at one, or be left out");
+              "' is in no interface, so nothing touches it: name an interface for it, or leave "
+              "the body out");
       const ContactLine line = joined(lines[b]);
       // The last with a factor that this one's could be.
       const CondensedBody *alike = nullptr;

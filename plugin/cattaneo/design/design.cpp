@@ -55,16 +55,17 @@ VectorXd shaped(const DesignProblem &of, const VectorXd &x, MatrixXd &by)
    const Index n = of.problem.nodes();
    by = MatrixXd::Zero(n, x.size());
    VectorXd gap = of.shape(x, by);
-   require(gap.size() == n && by.rows() == n && by.cols() == x.size(), "design: the shape has ",
-           gap.size(), " gaps and ", by.rows(), " × ", by.cols(), " derivatives for ", n,
-           " nodes and ", x.size(), " variables");
+   require(gap.size() == n && by.rows() == n && by.cols() == x.size(),
+           "design: `shape` returned ", gap.size(), " gaps and ", by.rows(), " × ", by.cols(),
+           " derivatives, must return ", n, " gaps (nodes) and ", n, " × ", x.size(),
+           " derivatives (nodes × variables)");
    return gap;
 }
 
 void require_start(const DesignProblem &problem, const VectorXd &start, double tolerance)
 {
-   require(start.size() == problem.low.size(), "design: ", start.size(), " values for ",
-           problem.low.size(), " variables");
+   require(start.size() == problem.low.size(), "design: the start has ", start.size(),
+           " values, must have one for each of the ", problem.low.size(), " variables");
    for (Index j = 0; j < start.size(); ++j)
    {
       require(start[j] >= problem.low[j] && start[j] <= problem.high[j], "design: variable ", j,
@@ -75,7 +76,7 @@ void require_start(const DesignProblem &problem, const VectorXd &start, double t
    if (r < 0) { return; }
    require(false, "design: limit ", r, " is ", problem.limits.row(r).dot(start),
            " at the start, must be from ", problem.least[r], " to ", problem.most[r],
-           " there: start where all limits hold, or widen it");
+           " there: start at values that meet all limits, or widen this one");
 }
 
 /** Refuses derivatives that are not those of the shape. With them the search would end anywhere
@@ -105,8 +106,9 @@ void require_derivatives(const DesignProblem &problem, const VectorXd &start)
          const double off = (change - expected).cwiseAbs().maxCoeff(&node);
          if (off <= 1e-2 * size + digits) { break; }
          require(share > 1e-12 && size > 100 * digits,
-                 "design: the shape's derivative by variable ", j, " is ", expected[node] / way,
-                 " at node ", node, ", its values change by ", change[node] / way);
+                 "design: the derivative that `shape` returns for variable ", j, " is ",
+                 expected[node] / way, " at node ", node,
+                 ", must agree with the change of its gaps, ", change[node] / way);
       }
    }
 }
@@ -272,10 +274,11 @@ Trial &Design::at(const VectorXd &x)
       }
    }
    trial.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-   require(trial.values.size() > 0, "design: the objective has no response");
-   require(!best_ || best_->values.size() == trial.values.size(), "design: the objective has ",
-           trial.values.size(), " responses, and had ", best_ ? best_->values.size() : 0,
-           " for other variables");
+   require(trial.values.size() > 0,
+           "design: the objective returned no response, must return at least one");
+   require(!best_ || best_->values.size() == trial.values.size(),
+           "design: the objective returned ", trial.values.size(), " responses, must return ",
+           best_ ? best_->values.size() : 0, " as it did for other values of the variables");
    trial.known = trial.values.allFinite();
    // Keep the best trial. Note when it became better by more than the tolerance, because the
    // search ends when that was too long ago.
@@ -484,8 +487,9 @@ SmoothSolution Design::descend()
       if (kept > 0.01) { now = trial; }
    }
    last.outcome = ProgrammeOutcome::failed;
-   last.message = radius > 1e-12 ? "not done after all iterations"
-                                 : "nodes change their states there, and derivatives jump";
+   last.message = radius > 1e-12
+                     ? "not converged after all iterations"
+                     : "at this design nodes change their states, and derivatives jump";
    return last;
 }
 
@@ -580,14 +584,14 @@ void Design::take(const SmoothSolution &solution)
    else
    {
       report_.status = DesignStatus::improved;
-      report_.message =
-         solution.outcome == ProgrammeOutcome::stopped
-            ? "no iteration of the last " + std::to_string(patience) +
-                 " found a better one: nodes may change their states there, where derivatives "
-                 "jump"
-         : solution.message.empty()
-            ? "the conditions of optimality do not hold to the tolerance"
-            : solution.message;
+      report_.message = solution.outcome == ProgrammeOutcome::stopped
+                           ? "no iteration of the last " + std::to_string(patience) +
+                                " found a better design: nodes may change their states there, "
+                                "so that derivatives "
+                                "jump"
+                        : solution.message.empty()
+                           ? "the conditions of optimality do not hold to the tolerance"
+                           : solution.message;
    }
    const Trial &found = at(report_.x);
    report_.traces = found.traces;
@@ -661,11 +665,12 @@ void limit_curvature(DesignProblem &problem, double least, double most)
            most, ", the lower must not be the larger");
    const ReducedProblem &of = problem.problem;
    const auto count = static_cast<Index>(problem.variables.size());
-   require(count > 0, "curvature limits: the design has no variables yet");
+   require(count > 0, "curvature limits: the design has no variables yet, add them before");
    require(!problem.shape, "curvature limits: the gap of this design depends on its variables "
                            "nonlinearly (`shape`), must be linear in them");
-   require(of.arc_length.size() == of.nodes(), "curvature limits: ", of.arc_length.size(),
-           " positions along the line for ", of.nodes(), " nodes");
+   require(of.arc_length.size() == of.nodes(), "curvature limits: the problem has ",
+           of.arc_length.size(), " arc lengths, must have one for each of its ", of.nodes(),
+           " nodes");
    for (const ContactChain &chain : of.chains)
    {
       for (Index k = 1; k + 1 < chain.nodes; ++k)
@@ -739,7 +744,7 @@ void DesignSettings::validate() const
 ReducedProblem DesignProblem::with(const VectorXd &x) const
 {
    require(x.size() == static_cast<Index>(variables.size()), "design: ", x.size(),
-           " values for ", variables.size(), " variables");
+           " values are given, must be one for each of the ", variables.size(), " variables");
    ReducedProblem result = problem;
    for (Index j = 0; j < x.size(); ++j)
    {
@@ -769,17 +774,19 @@ void DesignProblem::validate() const
    problem.validate();
    const Index n = problem.nodes();
    const auto count = static_cast<Index>(variables.size());
-   require(!cases.empty(), "design: there is no load case");
-   require(count > 0, "design: there is no variable");
-   require(low.size() == count && high.size() == count, "design: ", low.size(), " lower and ",
-           high.size(), " upper bounds for ", count, " variables");
+   require(!cases.empty(), "design: there is no load case, must be at least one");
+   require(count > 0, "design: there is no variable, must be at least one");
+   require(low.size() == count && high.size() == count, "design: there are ", low.size(),
+           " lower and ", high.size(), " upper bounds, must be one of each for the ", count,
+           " variables");
    require(objective || problem.weights.size() == n,
-           "design: the problem has no weights of its nodes, and so no pressure");
+           "design: the problem has no weights of its nodes, which pressures need");
    require(least.size() == limits.rows() && most.size() == limits.rows() &&
               (limits.rows() == 0 || limits.cols() == count),
-           "design: ", limits.rows(), " × ", limits.cols(), " limits of ", count,
-           " variables with ", least.size(), " lower and ", most.size(), " upper values");
-   require(limits.allFinite(), "design: an entry of the limits is not finite");
+           "design: limits is ", limits.rows(), " × ", limits.cols(), " with ", least.size(),
+           " lower and ", most.size(), " upper values, must have ", count,
+           " columns (variables), and a row for each lower and upper value");
+   require(limits.allFinite(), "design: limits has an entry that is not finite");
    for (Index r = 0; r < limits.rows(); ++r)
    {
       require(least[r] <= most[r], "design: limit ", r, " is from ", least[r], " to ", most[r],
@@ -791,27 +798,29 @@ void DesignProblem::validate() const
       require(std::isfinite(load_case.weight), "design: the weight of case '", load_case.name,
               "' is ", load_case.weight, ", must be finite");
       require(!times(load_case).empty(), "design: case '", load_case.name,
-              "' has no point from time ", load_case.from, " on");
+              "' has no point of its history at time ", load_case.from,
+              " or later, must have one");
    }
    for (Index j = 0; j < count; ++j)
    {
       require(std::isfinite(low[j]) && std::isfinite(high[j]) && low[j] <= high[j],
-              "design: variable ", j, " is bounded by ", low[j], " and ", high[j],
-              ", must be two finite numbers in their order");
+              "design: variable ", j, " has the bounds ", low[j], " and ", high[j],
+              ", must be finite, the lower one first");
       const Parameters &by = variables[j];
       require((by.gap.size() == 0 || by.gap.size() == n) &&
                  (by.friction.size() == 0 || by.friction.size() == n),
               "design: variable ", j, " has ", by.gap.size(), " gaps and ", by.friction.size(),
-              " frictions for ", n, " nodes");
+              " coefficients of friction, must have none or ", n, ", one for each node");
       require(by.stiffness.size() == 0, "design: variable ", j,
-              " changes the stiffness, which is no choice here");
+              " changes the stiffness, must change gaps, friction or loads only");
       for (const DesignCase &load_case : cases)
       {
          const MatrixXd &of = load_case.history.multipliers, &change = by.multipliers;
          require(change.size() == 0 ||
                     (change.rows() == of.rows() && change.cols() == of.cols()),
                  "design: variable ", j, " has ", change.rows(), " × ", change.cols(),
-                 " multipliers, case '", load_case.name, "' has ", of.rows(), " × ", of.cols());
+                 " multipliers, must have as many as case '", load_case.name, "', ", of.rows(),
+                 " × ", of.cols());
       }
    }
 }

@@ -16,8 +16,8 @@ namespace
 
 const ContactState &state_of(const MarchTrace &trace, std::size_t k)
 {
-   require(k < trace.states.size(), "edge responses: state ", k, " of a trace with ",
-           trace.states.size(), " states");
+   require(k < trace.states.size(), "edge responses: state ", k, ", must be below ",
+           trace.states.size(), ", the number of states of the trace");
    return trace.states[k].state;
 }
 
@@ -183,8 +183,8 @@ MovingEdge moving_edge(const ReducedProblem &problem, const MarchTrace &trace,
 MarchTrace trace_stuck(const ReducedProblem &problem, const MarchTrace &trace,
                        std::size_t pressed, std::size_t loaded)
 {
-   require(pressed < loaded, "stuck trace: pressed in state ", pressed, " and loaded in state ",
-           loaded, ", which must come later");
+   require(pressed < loaded, "stuck trace: the contact is pressed in state ", pressed,
+           " and loaded in state ", loaded, ", the loaded state must come later");
    const ContactState stuck =
       fully_stuck(problem, state_of(trace, pressed), state_of(trace, loaded));
    MarchTrace result = trace;

@@ -31,8 +31,9 @@ bool take_work(const LimitProblem &problem, double load_factor, const LimitRepor
    const CollapseMechanism &mechanism = limit.mechanism;
    require(mechanism.slip.rows() == m && mechanism.slip.cols() == vertices &&
               limit.slip.size() == m,
-           "gradient of a limit: its mechanism is of ", mechanism.slip.rows(), " slips at ",
-           mechanism.slip.cols(), " vertices, the problem has ", m, " at ", vertices);
+           "gradient of a limit: its mechanism has ", mechanism.slip.rows(), " slips at ",
+           mechanism.slip.cols(), " vertices, must have as many as the problem, ", m, " at ",
+           vertices);
    MatrixXd motion(m + n, vertices);
    motion << mechanism.slip, mechanism.opening;
    const VectorXd all = motion.rowwise().sum();
@@ -59,14 +60,14 @@ bool take_work(const LimitProblem &problem, double load_factor, const LimitRepor
    {
       const StiffnessChange &change = stiffness[s];
       require(change.K.rows() == m + n && change.K.cols() == m + n,
-              "gradient of a limit: a stiffness change of ", change.K.rows(), " × ",
-              change.K.cols(), " for a stiffness of ", m + n, " rows");
+              "gradient of a limit: a change of the stiffness is ", change.K.rows(), " × ",
+              change.K.cols(), ", must be ", m + n, " × ", m + n);
       double &work = by.stiffness[static_cast<Index>(s)];
       work = all.dot(change.K * u);
       if (change.loads.cols() > 0)
       {
          require(change.loads.rows() == m + n && change.loads.cols() == count,
-                 "gradient of a limit: a change of loads of ", change.loads.rows(), " × ",
+                 "gradient of a limit: a change of the loads is ", change.loads.rows(), " × ",
                  change.loads.cols(), ", must be ", m + n, " × ", count);
          work += motion.cwiseProduct(change.loads * loads).sum();
       }

@@ -25,7 +25,7 @@ std::size_t MarchTrace::at(double time) const
 {
    require(!states.empty() && states.front().state.time <= time &&
               states.back().state.time >= time,
-           "march trace: it has no state at time ", time);
+           "march trace: time ", time, " lies outside of the times of its states");
    std::size_t k = last();
    while (states[k].state.time > time) { --k; }
    return k;
@@ -54,7 +54,8 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
    require(trace.report.taken_up_clearance == 0,
            "trace of march: a free body touches nothing at rest, and was moved by ",
            trace.report.taken_up_clearance,
-           " before the march, which has no derivatives: it must touch, or be held");
+           " before the march. This shift has no derivatives: the body must touch at the "
+           "start, or be supported");
    return trace;
 }
 
@@ -70,7 +71,7 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
                       const WearSettings &settings)
 {
    require(settings.tolerance == 0, "trace of wear: the tolerance is ", settings.tolerance,
-           ", must be 0: cycles that are jumped over have no states");
+           ", must be 0: skipped cycles have no states");
    MarchTrace trace;
    trace.number = next_number();
    trace.history = history;
@@ -102,9 +103,9 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
    };
    const WearReport report = wear(problem, law, history, cycles, state, settings, {}, watch);
    require(report.implicit_cycles == 0, "trace of wear: ", report.implicit_cycles,
-           " cycles wore off so much that their update was implicit, which has no derivatives: "
-           "k must be smaller, a cycle is ",
-           1 / report.explicit_limit, " of what an update allows");
+           " cycles wore so much that their update was implicit, which has no derivatives: k "
+           "must be smaller, because a cycle wears ",
+           1 / report.explicit_limit, " of the depth that an explicit update allows");
    trace.report = report.last;
    trace.report.status = report.status;
    trace.report.message = report.message;

@@ -30,7 +30,7 @@ Response &Response::operator*=(double factor)
 Response &Response::add(const Response &other, double factor)
 {
    require(trace == 0 || other.trace == 0 || trace == other.trace,
-           "response: it is of another march than the other one, both must be of one trace");
+           "response: two responses belong to different traces, both must belong to one");
    trace = std::max(trace, other.trace);
    value += factor * other.value;
    for (const auto &[k, weight] : other.weights)
@@ -67,7 +67,7 @@ Response operator*(const Response &a, const Response &b)
 }
 Response operator/(const Response &a, const Response &b)
 {
-   require(b.value != 0, "response: it is divided by one that is zero");
+   require(b.value != 0, "response: the divisor is zero, must be nonzero");
    Response quotient = (1 / b.value) * a - (a.value / (b.value * b.value)) * b;
    quotient.value = a.value / b.value;
    return quotient;
@@ -81,18 +81,18 @@ Responses::Responses(const ReducedProblem &problem, const MarchTrace &trace)
 
 const ContactState &Responses::state(std::size_t k) const
 {
-   require(k < trace_.states.size(), "responses: state ", k, " of a trace with ",
-           trace_.states.size(), " states");
+   require(k < trace_.states.size(), "responses: state ", k, ", must be below ",
+           trace_.states.size(), ", the number of states of the trace");
    return trace_.states[k].state;
 }
 
 Index Responses::row(Index node, int component) const
 {
    const Index n = problem_.nodes();
-   require(node >= 0 && node < n, "responses: node ", node, " of a problem with ", n, " nodes");
+   require(node >= 0 && node < n, "responses: node ", node, ", must be from 0 to ", n - 1);
    require(component >= -1 && component < problem_.components(),
-           "responses: tangential component ", component, " of a problem with ",
-           problem_.components());
+           "responses: tangential component ", component, ", must be below ",
+           problem_.components(), ", the number of tangential components");
    return component < 0 ? problem_.slips() + node : component * n + node;
 }
 
@@ -115,7 +115,7 @@ Response Responses::dissipation(std::size_t from, std::size_t to) const
 {
    state(to);
    require(from <= to, "responses: dissipation from state ", from, " to state ", to,
-           ", must go forward");
+           ", the second must not be the earlier one");
    Response sum;
    for (std::size_t k = from + 1; k <= to && problem_.components() > 0; ++k)
    {
@@ -142,8 +142,9 @@ Response Responses::worn(std::size_t from, std::size_t to, const VectorXd &weigh
 {
    state(to);
    require(from <= to, "responses: wear from state ", from, " to state ", to,
-           ", must go forward");
-   require(trace_.wear.coefficient.size() > 0, "responses: the trace has no law of wear");
+           ", the second must not be the earlier one");
+   require(trace_.wear.coefficient.size() > 0,
+           "responses: the trace was recorded without a wear law");
    trace_.wear.validate(problem_);
    Response sum;
    for (std::size_t k = from + 1; k <= to; ++k)
@@ -193,7 +194,7 @@ Response Responses::pressure(std::size_t k, Index node) const
 {
    Response force = normal_force(k, node);
    require(problem_.weights.size() == problem_.nodes() && problem_.weights[node] > 0,
-           "responses: node ", node, " has no weight, and so no pressure");
+           "responses: node ", node, " has no weight, which its pressure needs");
    return (1 / problem_.weights[node]) * std::move(force);
 }
 
@@ -201,7 +202,7 @@ Response Responses::peak_pressure(std::size_t k) const
 {
    const VectorXd &p = state(k).p;
    require(problem_.weights.size() == p.size(),
-           "responses: the problem has no weights of its nodes, and so no pressure");
+           "responses: the problem has no weights of its nodes, which pressures need");
    Index peak = 0;
    for (Index i = 1; i < p.size(); ++i)
    {
@@ -214,8 +215,8 @@ Response Responses::peak_pressure(std::size_t k) const
 Response Responses::resultant(std::size_t k, const VectorXd &arm, int component) const
 {
    const Index n = problem_.nodes();
-   require(arm.size() == 0 || arm.size() == n, "responses: ", arm.size(), " lever arms for ", n,
-           " nodes");
+   require(arm.size() == 0 || arm.size() == n, "responses: ", arm.size(),
+           " lever arms, must be none or ", n, ", one for each node");
    const VectorXd F = state(k).forces();
    VectorXd weights = VectorXd::Zero(F.size());
    weights.segment(row(0, component), n) = arm.size() ? arm : VectorXd(VectorXd::Ones(n));
@@ -242,7 +243,7 @@ Response Responses::multiplier(std::size_t k, const std::string &pattern) const
 Response Responses::conjugate(std::size_t k, const std::string &pattern) const
 {
    require(problem_.knows_loads(),
-           "responses: the problem has no H, and does not know the conjugates of its loads");
+           "responses: the problem has no H, which the conjugates of its loads need");
    const VectorXd all = conjugates(problem_, state(k));
    return entry(k, &StateWeights::conjugates, all, unit(all.size(), problem_.pattern(pattern)));
 }

@@ -28,8 +28,9 @@ StiffnessChange stiffness_scale(const ReducedProblem &problem)
       {
          const bool other = problem.patterns[l].control == Control::displacement;
          require(problem.H(k, l) == 0 || prescribed == other, "stiffness scale: pattern '",
-                 pattern.name, "' is of ", prescribed ? "displacement" : "force",
-                 " and acts on '", problem.patterns[l].name, "', which is not");
+                 pattern.name, "' prescribes a ", prescribed ? "displacement" : "force",
+                 " and is coupled by H to '", problem.patterns[l].name,
+                 "', which does not: coupled patterns must be of one kind");
          if (!prescribed) { change.H(k, l) *= -1; }
       }
    }
@@ -42,8 +43,9 @@ double Parameters::dot(const Parameters &change) const
    const auto add = [&](const char *what, const MatrixXd &a, const MatrixXd &b)
    {
       if (a.size() == 0 || b.size() == 0) { return; }
-      require(a.rows() == b.rows() && a.cols() == b.cols(), "parameters: ", what, " of ",
-              a.rows(), " × ", a.cols(), " and of ", b.rows(), " × ", b.cols(), " entries");
+      require(a.rows() == b.rows() && a.cols() == b.cols(), "parameters: ", what, " is ",
+              a.rows(), " × ", a.cols(), " in one and ", b.rows(), " × ", b.cols(),
+              " in the other, must be equal");
       sum += a.cwiseProduct(b).sum();
    };
    add("friction", friction, change.friction);
@@ -58,16 +60,16 @@ double TraceChange::of(const Response &response) const
 {
    require(found, "trace change: the derivatives are not known: ", message);
    require(response.trace == 0 || trace == 0 || response.trace == trace,
-           "trace change: the response is of another march, must be of this trace");
+           "trace change: the response belongs to another trace, must belong to this one");
    double sum = 0;
    for (const auto &[k, weight] : response.weights)
    {
       const auto add = [&, column = static_cast<Index>(k)](const VectorXd &w, const MatrixXd &x)
       {
          if (w.size() == 0) { return; }
-         require(column < x.cols() && w.size() == x.rows(), "trace change: a response with ",
-                 w.size(), " weights of state ", column, ", the trace has ", x.cols(),
-                 " states with ", x.rows());
+         require(column < x.cols() && w.size() == x.rows(), "trace change: a response has ",
+                 w.size(), " weights for state ", column, ", must have ", x.rows(),
+                 " for states below ", x.cols());
          sum += w.dot(x.col(column));
       };
       add(weight.displacements, displacements);
@@ -214,7 +216,8 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
    const auto count = static_cast<Index>(problem.patterns.size());
    require(problem.components() <= 1, "sensitivity: the problem has ", problem.components(),
            " tangential components a node, at most 1 is supported");
-   require(!trace.states.empty(), "sensitivity: the trace has no state");
+   require(!trace.states.empty(),
+           "sensitivity: the trace has no state, must have at least one");
    trace.history.validate(problem);
    for (const TracedState &traced : trace.states)
    {
@@ -227,14 +230,14 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
    for (const StiffnessChange &change : stiffness)
    {
       require(change.K.rows() == K.rows() && change.K.cols() == K.cols(),
-              "sensitivity: a stiffness change of ", change.K.rows(), " × ", change.K.cols(),
-              " for a stiffness of ", K.rows(), " rows");
+              "sensitivity: a change of the stiffness is ", change.K.rows(), " × ",
+              change.K.cols(), ", must be ", K.rows(), " × ", K.rows());
       require(change.loads.cols() == 0 ||
                  (change.loads.rows() == K.rows() && change.loads.cols() == count),
-              "sensitivity: a change of loads of ", change.loads.rows(), " × ",
+              "sensitivity: a change of the loads is ", change.loads.rows(), " × ",
               change.loads.cols(), ", must be ", K.rows(), " × ", count);
       require(change.H.rows() == 0 || (change.H.rows() == count && change.H.cols() == count),
-              "sensitivity: a change of H of ", change.H.rows(), " × ", change.H.cols(),
+              "sensitivity: a change of H is ", change.H.rows(), " × ", change.H.cols(),
               ", must be ", count, " × ", count);
    }
    F.resize(K.rows(), count);
@@ -281,7 +284,7 @@ bool Sensitivity::System::set(std::size_t k)
    {
       std::ostringstream text;
       text << "the states at time " << state(k).time
-           << " leave a body free to move: what it does has no derivatives";
+           << " leave a body free to move, and its motion has no derivatives";
       message = text.str();
    }
    return done;
@@ -485,8 +488,8 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
    const auto check = [](const char *what, const MatrixXd &x, Index rows, Index columns)
    {
       require(x.size() == 0 || (x.rows() == rows && x.cols() == columns),
-              "sensitivity: a change of ", what, " of ", x.rows(), " × ", x.cols(),
-              " entries, must be ", rows, " × ", columns);
+              "sensitivity: a change of ", what, " is ", x.rows(), " × ", x.cols(),
+              ", must be ", rows, " × ", columns);
       require(x.allFinite(), "sensitivity: a change of ", what, " is not finite");
    };
    check("friction", change.friction, n, 1);
@@ -495,7 +498,7 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
    check("stiffness", change.stiffness, static_cast<Index>(s.stiffness.size()), 1);
    check("wear", change.wear, n, 1);
    require(change.wear.size() == 0 || s.wears(),
-           "sensitivity: a change of wear, of which the trace has no law");
+           "sensitivity: wear is changed, but the trace was recorded without a wear law");
    TraceChange result;
    result.displacements = result.forces = MatrixXd::Zero(m + n, states);
    result.multipliers = result.conjugates = MatrixXd::Zero(count, states);
@@ -538,7 +541,7 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
       if (m > 0) { beside.head(n) = s.equations_by_friction(k).cwiseProduct(x.by.friction); }
       if (s.frictionless && s.pushes(clamped + beside))
       {
-         result.message = "a body that is free to slide without friction is pushed";
+         result.message = "a load pushes a body that is free to slide without friction";
          return result;
       }
       // 4. Sticking nodes keep the slip of the state before, closed nodes have w = -g.
@@ -614,20 +617,20 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       };
    };
    require(response.trace == 0 || s.trace.number == 0 || response.trace == s.trace.number,
-           "sensitivity: the response is of another march, must be of this trace");
+           "sensitivity: the response belongs to another trace, must belong to this one");
    // The response is a function of states. Write its derivatives as ones by displacements,
    // forces and multipliers of each state.
    for (const auto &[k, weight] : response.weights)
    {
       const auto size = [&](const VectorXd &x, Index expected)
       {
-         require(x.size() == 0 || x.size() == expected, "sensitivity: a response with ",
-                 x.size(), " weights of a state, must be ", expected);
+         require(x.size() == 0 || x.size() == expected, "sensitivity: a response has ",
+                 x.size(), " weights for a state, must have ", expected);
          return x.size() > 0;
       };
       const auto column = static_cast<Index>(k);
-      require(column < states, "sensitivity: a response of state ", k, " of a trace with ",
-              states, " states");
+      require(column < states, "sensitivity: a response depends on state ", k,
+              ", must depend on states below ", states, ", the number of states of the trace");
       if (size(weight.displacements, m + n)) { by_u.col(column) += weight.displacements; }
       if (size(weight.forces, m + n)) { by_F.col(column) += weight.forces; }
       if (size(weight.multipliers, count)) { by_loads.col(column) += weight.multipliers; }
@@ -687,7 +690,8 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
       if (s.pushes(by_u.col(k)))
       {
          std::ostringstream message;
-         message << "it depends on where a body moves that is free to at time " << now.time;
+         message << "it depends on the motion of a body that is free to move at time "
+                 << now.time;
          result.message = message.str();
          return result;
       }

@@ -279,7 +279,7 @@ std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &sp
    const int most = std::numeric_limits<int>::max();
    require(entries <= static_cast<std::size_t>(most), "elastic body: the stiffness of ", nodes,
            " nodes has ", entries, " entries, must have at most ", most,
-           ": take fewer elements, or share the mesh between several ranks");
+           ": use fewer elements, or distribute the mesh over several ranks");
    // The matrix takes these arrays over and frees them.
    int *I = new int[size + 1], *J = new int[entries];
    double *data = new double[entries];

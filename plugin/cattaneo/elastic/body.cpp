@@ -68,23 +68,24 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
    check_mesh(mesh);
    require_at_least("elastic body: element order", order, 1);
    ranks_ = Ranks(mesh);
-   require(!materials_.empty(), "elastic body: there is no material");
+   require(!materials_.empty(), "elastic body: there is no material, must be at least one");
    for (const Material &material : materials_)
    {
       material.validate();
       require(formulation == Formulation::plane || material.state == PlaneState::strain,
-              "elastic body: a material is in plane stress, which a body of revolution is not");
+              "elastic body: a material is in plane stress, but the body is axisymmetric: use "
+              "plane strain");
    }
    for (int attribute : mesh.attributes)
    {
       require(attribute >= 1 && attribute <= static_cast<int>(materials_.size()),
-              "elastic body: element attribute ", attribute, " has no material, there are ",
-              materials_.size(), " (for the attributes from 1)");
+              "elastic body: element attribute ", attribute,
+              " has no material: materials are given for attributes 1 to ", materials_.size());
    }
    const int attributes = largest_attribute(mesh);
    require(static_cast<int>(materials_.size()) <= attributes, "elastic body: there are ",
-           materials_.size(), " materials, the largest element attribute is ", attributes,
-           ", there must be one for each from 1 to it");
+           materials_.size(), " materials, must be ", attributes,
+           ", one for each element attribute");
    make_space(mesh, order);
    assemble();
 }
@@ -98,7 +99,8 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, Field young, Field poisson
    require_at_least("elastic body: element order", order, 1);
    ranks_ = Ranks(mesh);
    require(formulation == Formulation::plane || state == PlaneState::strain,
-           "elastic body: the material is in plane stress, which a body of revolution is not");
+           "elastic body: the material is in plane stress, but the body is axisymmetric: use "
+           "plane strain");
    make_space(mesh, order);
    assemble();
 }
@@ -149,7 +151,8 @@ ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatr
            "elastic body: the mesh is distributed, your operator on it must be a "
            "HypreParMatrix");
    check_space();
-   require(stiffness.Finalized(), "elastic body: the stiffness is not finalized");
+   require(stiffness.Finalized(),
+           "elastic body: the stiffness is not finalized, call SparseMatrix::Finalize before");
    const int size = space.GetTrueVSize();
    require(stiffness.Height() == size && stiffness.Width() == size,
            "elastic body: the stiffness is ", stiffness.Height(), "×", stiffness.Width(),
@@ -172,7 +175,7 @@ ElasticBody::ElasticBody(mfem::ParFiniteElementSpace &space,
    const bool fits = stiffness.Height() == size && stiffness.Width() == size;
    require(!ranks_.any(!fits), "elastic body: the stiffness on this rank is ",
            stiffness.Height(), "×", stiffness.Width(), ", must be ", size, "×", size,
-           " (true dofs of the space), and so on all others");
+           " (true dofs of the space) on each rank");
    const auto largest = [this](const mfem::HypreParMatrix &K)
    {
       mfem::SparseMatrix own, others;
@@ -369,7 +372,7 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
 #endif
    std::sort(nodes.begin(), nodes.end());
    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-   require(ranks_.any(!nodes.empty() || !turns), where, ": there are no nodes on the ",
+   require(ranks_.any(!nodes.empty() || !turns), where, ": no nodes lie on the ",
            describe(part));
    return nodes;
 }
@@ -447,12 +450,13 @@ mfem::Array<int> ElasticBody::essential_dofs() const
 const Material &ElasticBody::material(int attribute) const
 {
    require(has_material(),
-           "elastic body: its operator was given as a matrix, it has no material");
-   require(!varying_,
-           "elastic body: its material varies within an attribute, so ask for it at a point");
+           "elastic body: it has no material, because its stiffness was given as a matrix");
+   require(
+      !varying_,
+      "elastic body: its material varies within an attribute: ask for the material at a point");
    require(attribute >= 1 && attribute <= static_cast<int>(materials_.size()),
-           "elastic body: there is no material for element attribute ", attribute,
-           ", there are those from 1 to ", materials_.size());
+           "elastic body: element attribute ", attribute,
+           " has no material, must be from 1 to ", materials_.size());
    return materials_[attribute - 1];
 }
 

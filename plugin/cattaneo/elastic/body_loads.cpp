@@ -53,10 +53,10 @@ void ElasticBody::add_forces(const std::string &pattern, const mfem::Vector &for
 {
    const int size = space_->GetTrueVSize();
    require(forces.Size() == size, "forces '", pattern, "': ", forces.Size(),
-           " are given, must be ", size, " (true dofs of the space)");
+           " values are given, must be ", size, " (true dofs of the space)");
    for (int dof = 0; dof < size; ++dof)
    {
-      require(std::isfinite(forces(dof)), "forces '", pattern, "': that of true dof ", dof,
+      require(std::isfinite(forces(dof)), "forces '", pattern, "': the force on true dof ", dof,
               " is ", forces(dof), ", must be finite");
    }
    load(pattern, Control::force).values += view(forces);
@@ -66,7 +66,7 @@ void ElasticBody::add_forces(const std::string &pattern, const mfem::LinearForm 
 {
    require(form.FESpace() == space_, "forces '", pattern,
            "': the linear form is on a space of ", form.Size(),
-           " dofs that is not the body's, must be on ElasticBody::space()");
+           " dofs, must be on the space of the body, ElasticBody::space()");
    // A form that has integrators and is zero was never assembled. One without integrators may
    // have been filled by hand.
    auto &parts = const_cast<mfem::LinearForm &>(form);
@@ -121,7 +121,7 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
          }
       }
    }
-   require(ranks_.any(anything), where, ": there is nothing on the ", describe(part));
+   require(ranks_.any(anything), where, ": no boundary elements lie on the ", describe(part));
    add_to_pattern(pattern, forces);
 }
 
@@ -184,7 +184,7 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
                                const Field &t)
 {
    require(formulation_ == Formulation::torsion, "traction '", pattern,
-           "': one component is given, must be two unless the body is one of torsion");
+           "': one component is given, must be two (one only for torsion)");
    add_boundary_load(pattern, part, "traction",
                      [&t](BoundaryEdge &edge, double s, const std::string &where)
                      {
@@ -307,9 +307,9 @@ void ElasticBody::add_strain_field(const std::string &pattern, StrainField strai
 {
    require(
       has_material() && components() == 2, "initial strain '", pattern, "': the body ",
-      has_material() ? "twists" : "has an operator that was given as a matrix",
-      ", it must be plane or axisymmetric and have a material (add_forces takes the forces "
-      "of a strain, set_stress its stresses)");
+      has_material() ? "is of torsion" : "has a stiffness that was given as a matrix",
+      ", must be plane or axisymmetric and have a material (else use add_forces for the forces "
+      "of a strain, and set_stress for its stresses)");
    add_volume_load(pattern, true,
                    [&](mfem::ElementTransformation &place, double r) -> PointLoad
                    {
@@ -452,7 +452,7 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
    check_component(where, component);
    const std::vector<int> nodes = nodes_on(part, where);
    require(ranks_.any(!nodes.empty()), where, ": the ", describe(part),
-           " lies on the axis, around which nothing moves there");
+           " lies on the axis, where the displacement around the axis is always zero");
    load(pattern, Control::displacement);
    for (int node : nodes)
    {
@@ -465,7 +465,7 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
 {
    const std::string where = "displacement '" + pattern + "'";
    require(u.FESpace() == space_, where, ": the grid function is on a space of ", u.Size(),
-           " dofs that is not the body's, must be on ElasticBody::space()");
+           " dofs, must be on the space of the body, ElasticBody::space()");
    const std::vector<int> nodes = nodes_on(part, where);
    load(pattern, Control::displacement);
    for (int node : nodes)

@@ -126,7 +126,8 @@ std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &p
            ", must be 0 (x) or 1 (y)");
    require(part.lo <= part.hi, where, ": interval from ", part.lo, " to ", part.hi,
            ", must not be empty");
-   require(!part.attributes.empty(), where, ": no boundary attribute is named");
+   require(!part.attributes.empty(), where,
+           ": no boundary attribute is named, must be at least one");
    std::vector<std::string> known;
    for (int a : mesh.bdr_attributes) { known.push_back(std::to_string(a)); }
    for (int a : part.attributes)

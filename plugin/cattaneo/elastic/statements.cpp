@@ -21,7 +21,7 @@ void check_point(const ElasticBody &body, const std::string &where, double x, do
    const double slack = 0.01 * box.sizes().norm();
    const Eigen::Vector2d point(x, y);
    require(box.exteriorDistance(point) <= slack, where, ": ", point,
-           " is outside of the body, which reaches from ", box.min(), " to ", box.max());
+           " lies outside of the body, which extends from ", box.min(), " to ", box.max());
 }
 
 /// Those of the named components that a body of this formulation has. About an axis r and z
@@ -136,8 +136,9 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
    {
       const std::string where = called + " '" + statement + "'";
       const std::size_t colon = statement.find(':');
-      require(colon != std::string::npos, where,
-              ": must be attributes:components such as 1:xy, or @x,y:components for one node");
+      require(
+         colon != std::string::npos, where,
+         ": must be attributes:components such as 1:xy, or @x,y:components for the node there");
       const std::string place = statement.substr(0, colon);
       const std::vector<int> fixed =
          components(where, statement.substr(colon + 1), body.formulation());

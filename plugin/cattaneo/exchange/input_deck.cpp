@@ -225,8 +225,8 @@ void DeckReader::require_known(const LineReader &in) const
    static const std::set<std::string> makers = {"NGEN",  "NFILL",  "NCOPY",  "NMAP",
                                                 "ELGEN", "ELCOPY", "SYSTEM", "IMPORT"};
    in.require(makers.count(name) == 0, "*", name,
-              " makes or moves nodes or elements, which is not followed, must be left out: "
-              "write them out in a deck of the program that made it");
+              " generates or moves nodes or elements, which is not supported: "
+              "write out all nodes and elements with the program that made the deck");
    const bool has_mesh = name == "NODE" || name == "ELEMENT" || name == "NSET" ||
                          name == "ELSET" || name == "SURFACE";
    in.require(!has_mesh || keyword_.parameter("INPUT").empty(), "*", name,
@@ -260,14 +260,16 @@ void DeckReader::require_known(const LineReader &in) const
            "stands for, a support, a guide, or an interface that is tied"
          : " lets nodes move with others, must be left out: the case has no such thing");
    if (use_ == DeckUse::mesh) { return; }
-   in.require(couplings.count(name) == 0, "*", name,
-              " makes nodes depend on others, whose rows of the matrix are not their own then, "
-              "must be left out when the matrix is written");
+   in.require(
+      couplings.count(name) == 0, "*", name,
+      " makes nodes depend on others, so that rows of the matrix belong to several nodes: it "
+      "must be left out when the matrix is written");
    in.require(name != "TRANSFORM", "*TRANSFORM turns directions of nodes, must be left out: "
                                    "everything is read in x and y");
-   in.require(name != "CONTACT PAIR" && name != "PRE-TENSION SECTION", "*", name,
-              " makes nodes depend on others, whose rows of the matrix are not their own then, "
-              "must be left out when the matrix is written");
+   in.require(
+      name != "CONTACT PAIR" && name != "PRE-TENSION SECTION", "*", name,
+      " makes nodes depend on others, so that rows of the matrix belong to several nodes: it "
+      "must be left out when the matrix is written");
 }
 
 /// *PART, *INSTANCE and their ends.
@@ -290,10 +292,10 @@ void DeckReader::begin_block(const LineReader &in)
    in.require(part != parts_.end(), "the *INSTANCE '", called, "' is of the part '", of,
               "', which must be there before it");
    in.require(use_ == DeckUse::mesh || instances_.empty(),
-              "a second *INSTANCE begins, beside a "
-              "matrix there must be one: node "
-              "numbers of several are not told "
-              "apart");
+              "a second *INSTANCE begins. Beside a "
+              "matrix there must be one, because "
+              "node numbers of several "
+              "instances coincide");
    for (const auto &other : instances_)
    {
       in.require(other->name != called, "the *INSTANCE '", called,
@@ -805,8 +807,8 @@ Block &DeckReader::chosen(const std::string &file, const DeckPart &part)
          for (const auto &each : block->deck.element_sets) { sets.push_back(each.first); }
       }
       names.insert(names.end(), sets.begin(), sets.end());
-      require(false, "file '", file, "': there is no instance and no set of elements '",
-              part.name, "', must be one of: ", listed(names));
+      require(false, "file '", file, "' has no instance and no set of elements '", part.name,
+              "', must be one of: ", listed(names));
    }
    for (Block *block : blocks)
    {
@@ -814,7 +816,7 @@ Block &DeckReader::chosen(const std::string &file, const DeckPart &part)
    }
    require(blocks.size() == 1, "file '", file, "' has ", blocks.size(), " ",
            instances_.empty() ? "parts" : "instances", ", ", listed(names),
-           ": each body must say which one it is (key 'part')");
+           ": each body must name one of them (key 'part')");
    return *blocks[0];
 }
 
@@ -875,8 +877,8 @@ InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
       std::vector<InputDeck::Nodes> &edges = deck.surfaces[face.surface];
       const auto corners = static_cast<int>(element.corners);
       require(corners > 2 && face.side < corners, face.place, ": surface '", face.surface,
-              "' has face S", face.side + 1, " of element ", element.number, ", a ",
-              element.type, ", which has none");
+              "' has face S", face.side + 1, " of element ", element.number, ", but a ",
+              element.type, " has no such face");
       for (int k = 0; k < corners; ++k)
       {
          if (face.side >= 0 && face.side != k) { continue; }
@@ -884,7 +886,7 @@ InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
             outer.find(std::minmax(element.nodes[k], element.nodes[(k + 1) % corners]));
          require(face.side < 0 || found != outer.end(), face.place, ": face S", k + 1,
                  " of element ", element.number, " of surface '", face.surface,
-                 "' is inside of the body, must be on its boundary");
+                 "' is not on the boundary of the body, must be");
          if (found != outer.end()) { edges.push_back(*found->second); }
       }
    }

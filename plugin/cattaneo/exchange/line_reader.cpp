@@ -59,7 +59,7 @@ LineReader::LineReader(std::string file) : file_(std::move(file)), in_(file_)
 {
    const bool folder = std::filesystem::is_directory(file_);
    cattaneo::require(in_.good() && !folder, "cannot read file '", file_, "'",
-                     folder                           ? ", which is a folder"
+                     folder                           ? ": it is a folder"
                      : std::filesystem::exists(file_) ? ""
                                                       : ": there is no such file");
 }

@@ -88,15 +88,16 @@ std::map<NodeDof, int> NodalStiffness::rows() const
               name, "': row ", row, " is direction ", dof.direction, " of node ", dof.node,
               directions_of(formulation));
       require(rows.emplace(dof, row).second, "stiffness '", name, "': direction ",
-              dof.direction, " of node ", dof.node, " has a second row ", row,
-              ", must have one");
+              dof.direction, " of node ", dof.node, " has a second row, ", row,
+              ", must have one only");
       const auto place = places.find(dof.node);
       const bool flat = formulation != Formulation::space;
-      require(place != places.end() && place->second.allFinite() &&
-                 (flat || (z.count(dof.node) == 1 && std::isfinite(z.at(dof.node)))),
-              "stiffness '", name, "': node ", dof.node, " has no place, must have ",
-              flat ? "two" : "three",
-              " finite coordinates: is the deck or the file of places that of this matrix?");
+      require(
+         place != places.end() && place->second.allFinite() &&
+            (flat || (z.count(dof.node) == 1 && std::isfinite(z.at(dof.node)))),
+         "stiffness '", name, "': node ", dof.node, " has no place, must have ",
+         flat ? "two" : "three",
+         " finite coordinates: does the deck or the file of places belong to this matrix?");
    }
    return rows;
 }
@@ -108,7 +109,7 @@ void NodalStiffness::validate() const
            "stiffness '", name, "': it is ", size, "×", K.cols(), " with ", dofs.size(),
            " dofs, must be square and have a dof for each row");
    require(formulation != Formulation::torsion, "stiffness '", name,
-           "': it is of torsion, must be plane, axisymmetric or in space");
+           "': its formulation is torsion, must be plane, axisymmetric or space");
    rows();
    const double near_axis = axis();
    for (const auto &[node, place] : places)
@@ -141,8 +142,8 @@ const NodalStiffness::Nodes &NodalStiffness::nodes_of(const std::string &set) co
    if (found != sets.end()) { return found->second; }
    std::vector<std::string> known;
    for (const auto &[each, nodes] : sets) { known.push_back(each); }
-   throw InputError("stiffness '" + name + "': there is no set '" + set + "', there are " +
-                    (known.empty() ? "none" : listed(known)));
+   throw InputError("stiffness '" + name + "': there is no set '" + set +
+                    "', must be one of: " + (known.empty() ? "none" : listed(known)));
 }
 
 std::vector<int> NodalStiffness::rows_of(const Nodes &nodes, int direction,
@@ -169,7 +170,7 @@ BodyLoad &NodalStiffness::load_of(const std::string &load, Control control)
    {
       if (each.name != load) { continue; }
       require(each.control == control, "stiffness '", name, "': load '", load,
-              "' has forces and displacements, must have one of them");
+              "' has forces and displacements, must have forces only or displacements only");
       return each;
    }
    loads.push_back({load, control, Eigen::VectorXd::Zero(K.rows())});
@@ -211,7 +212,8 @@ void NodalStiffness::add_displacement(const std::string &load, const Nodes &node
       }
       require(coupled, "stiffness '", name, "': load '", load, "' moves node ", nodes[k],
               " in direction ", direction,
-              ", whose row holds nothing but its diagonal: ", leave_free);
+              ", whose row holds nothing but its diagonal, as of an eliminated support: ",
+              leave_free);
    }
    fix(nodes, direction);
    Eigen::VectorXd &values = load_of(load, Control::displacement).values;
@@ -233,7 +235,7 @@ void NodalStiffness::add_traction(const std::string &load, const Nodes &nodes,
          {
             const auto row = all.find({each.id, c + 1});
             require(row != all.end() || supports_left_out, "stiffness '", name, "': direction ",
-                    c + 1, " of node ", each.id, " has no row, it must be loaded");
+                    c + 1, " of node ", each.id, " is loaded, but has no row in the matrix");
             if (row != all.end()) { values[row->second] += each.node.weight * traction[c]; }
          }
       }
@@ -279,8 +281,8 @@ void NodalStiffness::require_free(const DofPlaces &at) const
       share << std::abs(energy) / size;
       require(
          std::abs(energy) <= 1e-12 * size, "stiffness '", name, "': it resists ",
-         (dimension == 3 ? in_space : in_plane)[motion], " by ", share.str(),
-         " of its entries, without supports at most 1e-12 is allowed: are its rows in another "
+         (dimension == 3 ? in_space : in_plane)[motion], " by a share of ", share.str(),
+         " of its entries, must be at most 1e-12 without supports: are its rows in another "
          "order than its dofs, was it eliminated, has it less than 13 digits, or were "
          "supports left out of it (supports_left_out)?");
    }
@@ -300,11 +302,11 @@ AssembledBody NodalStiffness::body() const
    for (const NodeDof &dof : dofs) { box.extend(place(dof.node)); }
    const double away = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff(),
                 extent = box.sizes().maxCoeff();
-   require(extent == 0 || std::numeric_limits<double>::epsilon() * away <= 1e-8 * extent,
-           "stiffness '", name, "': its nodes are ", away, " away from the origin, and ",
-           extent,
-           " from one another: that leaves less than 8 digits of their distances, the origin "
-           "must be nearer");
+   require(
+      extent == 0 || std::numeric_limits<double>::epsilon() * away <= 1e-8 * extent,
+      "stiffness '", name, "': its nodes are ", away, " away from the origin, and ", extent,
+      " from one another, so that less than 8 digits of their distances are left: move the "
+      "origin nearer to the body");
    const double near_axis = axis();
    if (formulation == Formulation::space) { body.places.z.resize(size); }
    for (Index row = 0; row < size; ++row)
@@ -390,7 +392,8 @@ void NodalStiffness::require_body_on_left(const ContactLine &line) const
 std::vector<NodalStiffness::Nodes> NodalStiffness::faces_on(const Nodes &nodes) const
 {
    require(formulation == Formulation::space, "stiffness '", name, "': it is ",
-           cattaneo::name(formulation), ", which has lines, must be in space for a surface");
+           cattaneo::name(formulation),
+           ", where contact is on a line, must be in space for a surface");
    require(!faces.empty(), "stiffness '", name,
            "': no elements are known, a surface must be given by its faces");
    const std::set<int> among(nodes.begin(), nodes.end());
@@ -417,7 +420,8 @@ ContactSurface NodalStiffness::contact_surface(const std::vector<Nodes> &on) con
 {
    validate();
    require(formulation == Formulation::space, "stiffness '", name, "': it is ",
-           cattaneo::name(formulation), ", which has lines, must be in space for a surface");
+           cattaneo::name(formulation),
+           ", where contact is on a line, must be in space for a surface");
    const std::string where = "contact surface of '" + name + "'";
    const std::map<NodeDof, int> all = rows();
    const auto known = [&](int id)
@@ -475,7 +479,7 @@ ContactLine NodalStiffness::contact_line(const Nodes &nodes, int order) const
 {
    validate();
    require(formulation != Formulation::space, "stiffness '", name,
-           "': it is in space, where contact is on a surface (contact_surface())");
+           "': it is in space, where contact is on a surface: use contact_surface()");
    const std::string where = "contact line of '" + name + "'";
    const std::vector<Nodes> elements = elements_on(nodes, order);
    const std::map<NodeDof, int> all = rows();
@@ -693,7 +697,8 @@ NodalStiffness nodal_stiffness(const CondensedBody &body)
 {
    const ContactLine &line = body.line;
    require(line.formulation != Formulation::torsion,
-           "stiffness of a condensed body: it is of torsion, must be plane, axisymmetric or in "
+           "stiffness of a condensed body: its formulation is torsion, must be plane, "
+           "axisymmetric or "
            "space");
    const FrameChange back = frames_of(body).inverse();
    const Index n = body.nodes();

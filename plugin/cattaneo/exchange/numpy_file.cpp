@@ -143,8 +143,8 @@ NumpyArray numpy_array(const std::string &content, const std::string &name)
       count *= extent;
       c = *end == ',' ? end + 1 : end;
    }
-   require(count * size == bytes, "file '", name, "' has ", bytes, " bytes for ", count,
-           " numbers of ", size, " bytes");
+   require(count * size == bytes, "file '", name, "' has ", bytes, " bytes, must have ",
+           count * size, " for its ", count, " numbers");
    array.values.resize(count);
    if (kind == "'<f8'") { take<double>(content, data, array.values); }
    else if (kind == "'<f4'") { take<float>(content, data, array.values); }
@@ -180,12 +180,13 @@ std::map<std::string, std::string> stored_files(const std::string &archive,
       require(method == 0, "file '", name, "': its array '", called,
               "' is compressed, must not be: np.savez, or save_npz(…, compressed=False)");
       require(at<std::uint32_t>(archive, local, name) == local_mark, "file '", name,
-              "': its array '", called, "' is not where its directory says");
+              "': its array '", called,
+              "' is not at the place that the directory of the archive states");
       const std::size_t data = local + 30 + at<std::uint16_t>(archive, local + 26, name) +
                                at<std::uint16_t>(archive, local + 28, name);
       const std::string content = part(archive, data, size, name);
       require(checksum(content) == crc, "file '", name, "': its array '", called,
-              "' is damaged, its checksum is another one");
+              "' is damaged: its checksum is wrong");
       files[called] = content;
       place += 46 + length + extra + comment;
    }

@@ -60,10 +60,11 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
             const int from = nodes[a], to = nodes[(a + 1) % corners],
                       middle = nodes[corners + a];
             const bool between = from == to || (middle != from && middle != to);
-            require(best[a] == a && between, which, ": node ", nodes[corners + a],
-                    " is not between its corners ", nodes[a], " and ", nodes[(a + 1) % corners],
-                    ", must be: corners come first, then the middle of each side from the "
-                    "first on");
+            require(
+               best[a] == a && between, which, ": node ", nodes[corners + a],
+               " is not between its corners ", nodes[a], " and ", nodes[(a + 1) % corners],
+               ", must be: list the corners first, then the middle of each side in the same "
+               "order");
          }
       }
       for (std::size_t a = 0; a < corners; ++a)
@@ -75,9 +76,10 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
          if (area < 0) { std::reverse(edge.begin(), edge.end()); }
          const auto [other, first] = seen.insert({{edge.front(), edge.back()}, which});
          require(first, which, " and ", other->second,
-                 " are on the same side of their edge from node ", nodes[a], " to ", nodes[b],
-                 ", must not lie on each other or be there twice: corners are in order around "
-                 "an element");
+                 " lie on the same side of their common edge from node ", nodes[a], " to ",
+                 nodes[b],
+                 ", must not overlap or be listed twice: list the corners in order around "
+                 "each element");
          edges[std::minmax(edge.front(), edge.back())].push_back(edge);
       }
    }

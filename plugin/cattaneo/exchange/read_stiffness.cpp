@@ -161,7 +161,7 @@ void require_elements_connect(const NodalStiffness &rows, const InputDeck &deck,
                  "': its row ", row + 1, ", taken for ", dof_name(rows.dofs[row]),
                  ", is coupled to row ", entry.col() + 1, ", taken for ",
                  dof_name(rows.dofs[entry.col()]),
-                 ", which has no element in common: rows are numbered otherwise, write the "
+                 ", but no element has both. The rows are numbered in another way: write the "
                  "matrix with FORMAT=MATRIX INPUT, which names nodes");
       }
    }
@@ -206,7 +206,8 @@ void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalSti
          }
          const NodeDof dof{in.integer(fields[2 * k], "a node"),
                            in.integer(fields[2 * k + 1], "a direction")};
-         in.require(dof.node != 0, "node 0, must be a node, or an internal one below zero");
+         in.require(dof.node != 0,
+                    "node 0, must be positive (a node) or negative (an internal node)");
          if (dof.node > 0) { require_plane(in, dof); }
          at[k] = number.emplace(dof, static_cast<int>(rows.dofs.size())).first->second;
          if (at[k] == static_cast<int>(rows.dofs.size()))
@@ -273,7 +274,7 @@ void read_user_element(const std::string &file, NodalStiffness &rows)
       {
          const bool stiffness = says("*MATRIX") && says("STIFFNESS");
          in.require(!stiffness || values.empty(),
-                    "a second *MATRIX, TYPE=STIFFNESS begins, there must be one in a file");
+                    "a second *MATRIX, TYPE=STIFFNESS begins, must be one in a file");
          expected = stiffness ? Expected::stiffness : Expected::nothing;
       }
       else if (expected == Expected::stiffness)
@@ -300,10 +301,10 @@ void read_user_element(const std::string &file, NodalStiffness &rows)
          directions[numbers[0]].assign(numbers.begin() + 1, numbers.end());
       }
    }
-   require(
-      count > 0 && static_cast<int>(nodes.size()) == count && !directions.empty(), "file '",
-      file, "': a user element of ", count, " nodes lists ", nodes.size(),
-      " of them, must list all in a comment behind '** ELEMENT NODES', and their directions");
+   require(count > 0 && static_cast<int>(nodes.size()) == count && !directions.empty(),
+           "file '", file, "': a user element of ", count, " nodes lists ", nodes.size(),
+           " of them, must list all of them in a comment after '** ELEMENT NODES', and their "
+           "directions");
    for (int k = 0; k < count; ++k)
    {
       const auto &of = std::prev(directions.upper_bound(k + 1))->second;
@@ -359,14 +360,15 @@ Matrix read_matrix_market(const std::string &file)
               "the matrix is ", fields[0], "×", fields[1], ", must be square");
    const long stated = array ? triangle ? long(size) * (size + 1L) / 2 : long(size) * size
                              : in.integer(fields[2], "the number of entries");
-   in.require(stated >= size, stated, " entries of ", size,
-              " rows, must be one a row at least");
+   in.require(stated >= size, stated, " entries for ", size,
+              " rows, must be at least one for each row");
    SymmetricEntries entries;
    int row = 0, column = 0; // of an array, by columns
    long count = 0;
    for (; next(); ++count)
    {
-      in.require(count < stated, "there are more entries than ", stated, ", must be as many");
+      in.require(count < stated, "there are more entries than the ", stated,
+                 " that the file states, must be equally many");
       fields = in.words();
       in.require(fields.size() == (array ? 1 : 3), "'", trimmed(in.line()), "', must be ",
                  array ? "one entry" : "row, column and value");
@@ -643,7 +645,8 @@ void read_dofs(const std::string &file, NodalStiffness &result)
          if (word == "axisymmetric" && fields.size() == 1)
          {
             in.require(result.formulation != Formulation::space,
-                       "'axisymmetric', but its rows have x, y and z");
+                       "'axisymmetric' stands in a file whose rows have x, y and z, must have "
+                       "x and y only");
             result.formulation = Formulation::axisymmetric;
          }
          else if (word == "supports_left_out" && fields.size() == 1)
@@ -750,7 +753,8 @@ void read_facts(const NumpyArrays &array, const std::string &file, NodalStiffnes
    {
       const Eigen::MatrixXi column = array.whole("load " + load, 1);
       require(column.size() == 1 && column(0) >= 0 && column(0) < loads.cols(), "file '", file,
-              "': its array 'load ", load, "' must be a number of a column of loads, from 0");
+              "': its array 'load ", load,
+              "' must be the number of a column of its array 'loads', from 0");
       result.loads[column(0)].name = load;
    }
 }
@@ -844,8 +848,8 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
             "PRE-TENSION SECTION", "CONNECTOR LOAD", "CONNECTOR MOTION", "INERTIA RELIEF"})
       {
          require(said.keywords.count(load) == 0, "file '", deck, "': *", load,
-                 " loads elements, which is not read beside a matrix, must be left out: give "
-                 "forces as *CLOAD, or tractions on nodes of the surface when it is read");
+                 " loads elements, which is not supported beside a matrix: give "
+                 "forces as *CLOAD, or tractions on nodes of the surface after it is read");
       }
    }
    result.validate();

@@ -22,7 +22,7 @@ SymmetricEntries::matrix(int size, const std::string &file,
    {
       twice = twice || (e.row() != e.col() && e.value() != 0 && K.coeff(e.col(), e.row()) != 0);
       if (K.nonZeros() == known || seen.insert({e.row(), e.col()}).second) { continue; }
-      require(false, place(e.row(), e.col()), " is there twice, must be there once");
+      require(false, place(e.row(), e.col()), " is listed twice, must be listed once");
    }
    const double allowed = known > 0 ? 1e-10 * K.coeffs().cwiseAbs().maxCoeff() : 0.0;
    const Matrix mirrored = K.transpose(),

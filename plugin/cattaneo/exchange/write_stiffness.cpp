@@ -20,7 +20,7 @@ void add_mass(Arrays &arrays, const Eigen::MatrixXd &M, Index size)
 {
    if (M.size() == 0) { return; }
    require(M.rows() == size && M.cols() == size, "mass matrix: it is ", M.rows(), "×", M.cols(),
-           ", must be ", size, "×", size, " as the stiffness");
+           ", must be ", size, "×", size, " like the stiffness");
    arrays["M"] = M;
 }
 
@@ -28,10 +28,10 @@ void require_forces(const std::string &file, const NodalStiffness &stiffness)
 {
    for (const BodyLoad &load : stiffness.loads)
    {
-      require(
-         load.control == Control::force, "file '", file, "': load '", load.name,
-         "' prescribes displacements, must be forces there: condense the body, whose loads "
-         "are forces");
+      require(load.control == Control::force, "file '", file, "': load '", load.name,
+              "' prescribes displacements, but such a file has forces only: condense the body, "
+              "then all its loads "
+              "are forces");
    }
 }
 
@@ -95,7 +95,7 @@ void require_npz(const std::string &file)
 void require_flat(const std::string &file, const NodalStiffness &stiffness)
 {
    require(stiffness.formulation != Formulation::space, "file '", file, "': the stiffness '",
-           stiffness.name, "' is in space, which write_matrix_market() alone writes");
+           stiffness.name, "' is in space, use write_matrix_market() for it");
 }
 
 } // namespace

@@ -83,11 +83,12 @@ double summit(const OnPlanes &value, double low, double high)
 CriticalPlane critical_plane(PlaneCriterion criterion, const StressCycle &cycle,
                              const FatigueMaterial &material, const PlaneWeights &weights)
 {
-   require(cycle.rows() > 0, "critical plane: a cycle without instants");
+   require(cycle.rows() > 0,
+           "critical plane: the cycle has no instants, must have at least one");
    require(cycle.allFinite(), "critical plane: a stress of the cycle is not finite");
-   require(weights.findley >= 0 && weights.fatemi_socie >= 0, "critical plane: the k are ",
-           weights.findley, " (Findley) and ", weights.fatemi_socie,
-           " (Fatemi–Socie), must not be negative");
+   require(weights.findley >= 0 && weights.fatemi_socie >= 0,
+           "critical plane: the weights k are ", weights.findley, " (Findley) and ",
+           weights.fatemi_socie, " (Fatemi–Socie), must not be negative");
    const OnPlanes value(criterion, cycle, material, weights);
    constexpr int planes = 360;
    constexpr double step = M_PI / planes;

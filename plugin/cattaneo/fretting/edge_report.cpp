@@ -38,7 +38,7 @@ void predict(const MarchedStates &states, const ContactEdge *before,
    {
       solved.notes.push_back(sentence("the slip zone from K_N and K_T, ", d,
                                       ", is shorter than two spacings of the nodes (", spacing,
-                                      "), the computed one is not"));
+                                      "); the computed slip zone is longer"));
    }
    // If the next term of the expansion changes the fit by more than a tenth, the nodes are too
    // few or too far from the edge for the square root.
@@ -46,7 +46,10 @@ void predict(const MarchedStates &states, const ContactEdge *before,
    {
       solved.notes.push_back("the fit is uncertain: refine the contact near its edge");
    }
-   if (edge.slides) { solved.notes.push_back("the whole stretch of contact slides"); }
+   if (edge.slides)
+   {
+      solved.notes.push_back("the contact beside this edge slides as a whole");
+   }
    if (before)
    {
       solved.travel = edge.position.position - before->position.position;
@@ -54,16 +57,17 @@ void predict(const MarchedStates &states, const ContactEdge *before,
       // zone is tolerated.
       if (std::abs(solved.travel) > 0.1 * d)
       {
-         solved.notes.push_back(
-            sentence("the edge moves by ", solved.travel,
-                     " under the cyclic loads, the slip zone from K_N and K_T is ", d,
-                     ": K_N is not constant, as the predictions take it to be"));
+         solved.notes.push_back(sentence("the edge moves by ", solved.travel,
+                                         " under the cyclic loads, which is not small against "
+                                         "the slip zone from K_N and K_T, ",
+                                         d, ": the predictions assume a constant K_N"));
       }
    }
    if (!states.cycle) { return; }
    if (states.modulus <= 0)
    {
-      solved.notes.push_back("no energy is predicted: the bodies are not of one material");
+      solved.notes.push_back(
+         "no energy is predicted, because the bodies have different materials");
       return;
    }
    if (!opposite || !opposite->why_not.empty())
@@ -124,7 +128,8 @@ try
    }
    if (edges.empty())
    {
-      report.why_not = "nothing is in contact, or all between planes of symmetry";
+      report.why_not = "there is no edge: nothing is in contact, or the contact reaches from "
+                       "one plane of symmetry to the other";
    }
    return report;
 }

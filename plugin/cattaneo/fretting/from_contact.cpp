@@ -19,7 +19,7 @@ EnergyComparison compare_energy(const ReducedProblem &problem, const ContactEdge
 {
    require(cycle.node_dissipation.size() == problem.nodes(),
            "the cycle has the dissipation of ", cycle.node_dissipation.size(),
-           " nodes, the problem has ", problem.nodes(), ".");
+           " nodes, must have that of all ", problem.nodes(), " nodes of the problem.");
    edge.validate(problem);
    EnergyComparison result;
    result.predicted_total = slip_energy_total(near_edge(edge), k_t_range, modulus);

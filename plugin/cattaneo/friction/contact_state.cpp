@@ -35,7 +35,7 @@ void require_held(const ReducedProblem &problem, const Eigen::VectorXd &v, doubl
    for (Eigen::Index row : problem.held)
    {
       require(std::abs(v[row]) <= allowed, "contact state: row ", row, " of the slip is ",
-              v[row], ", must be 0: it is held");
+              v[row], ", must be 0, because a support holds it");
    }
 }
 
@@ -118,7 +118,8 @@ void ContactState::require_of(const ReducedProblem &problem) const
    const double allowed = std::max(1e-6 * size.maxCoeff(), 1e-9 * peak_force);
    require(off <= allowed, "contact state: the forces of node ", row % problem.nodes(),
            " differ by ", off,
-           " from those of its displacements and loads: it belongs to another reduced problem");
+           " from the forces that follow from its displacements and loads: the state belongs "
+           "to another reduced problem");
 }
 
 void ContactState::validate(const ReducedProblem &problem) const
@@ -129,11 +130,10 @@ void ContactState::validate(const ReducedProblem &problem) const
               p.size() == n && static_cast<Eigen::Index>(status.size()) == n &&
               multipliers.size() == patterns,
            "contact state: it has ", status.size(), " nodes and ", multipliers.size(),
-           " load multipliers, the reduced problem has ", n, " nodes and ", patterns,
-           " load patterns");
+           " load multipliers, must have ", n, " and ", patterns, " as the reduced problem");
    require(loads.empty() || loads == problem.load_names(), "contact state: its loads are ",
-           listed(loads), ", those of the reduced problem ", listed(problem.load_names()),
-           ", must be the same in the same order");
+           listed(loads), ", must be those of the reduced problem in the same order: ",
+           listed(problem.load_names()));
    for (const Eigen::VectorXd &slip : cycle_slip)
    {
       require(slip.size() == m, "contact state: the slip at the end of a cycle has ",
@@ -145,8 +145,8 @@ void ContactState::validate(const ReducedProblem &problem) const
       const Eigen::Index rubbed = m > 0 ? n : 0;
       require(loops == patterns && cycle->node_dissipation.size() == rubbed,
               "contact state: the cycle under way has ", loops, " loads and ",
-              cycle->node_dissipation.size(), " nodes that rub, the reduced problem ", patterns,
-              " and ", rubbed);
+              cycle->node_dissipation.size(), " nodes with a loss, must have ", patterns,
+              " and ", rubbed, " as the reduced problem");
    }
    require_finite();
    require_held(problem, v, m > 0 ? 1e-9 * v.cwiseAbs().maxCoeff() : 0);

@@ -172,7 +172,7 @@ bool ExactPath::release_pivot()
    if (share.cwiseAbs().maxCoeff() > round_off ||
        !equations_.solve(rates_.b + share, u_rate_, F_rate_))
    {
-      last_.failure = "the loads turn a body about the node where it touches";
+      last_.failure = "the loads turn a body about its only node in contact";
       return false;
    }
    F_rate_[pivot_.node] = F_rate_[n + pivot_.node] = 0;
@@ -531,7 +531,7 @@ bool ExactPath::advance(ContactState &state, const PathWay &way,
    if (pivot_.node >= 0) { states[pivot_.node] = NodeState::separation; }
    else if (free_motions(problem_, states).cols() > 0)
    {
-      last_.failure = "a body slips wherever it touches";
+      last_.failure = "a body slips at all of its contact nodes";
       return false;
    }
 
@@ -544,7 +544,7 @@ bool ExactPath::advance(ContactState &state, const PathWay &way,
    if (equations_.most_round_off(by, step) > 1e-6 * peak &&
        equations_.round_off(by, step).maxCoeff() > 1e-6 * peak)
    {
-      last_.failure = "the present states do not hold the bodies";
+      last_.failure = "contact in the present node states does not hold the bodies";
       return false;
    }
    list_changes(state, states, changes);

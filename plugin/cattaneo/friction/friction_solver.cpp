@@ -140,8 +140,9 @@ void explain_failure(Increment &at)
    else if (at.cause.lost_in_round_off > 0)
    {
       report.status = FrictionStatus::stalled;
-      message << "the contact moves so far that its forces are lost in round-off ("
-              << at.cause.lost_in_round_off << " of the largest)";
+      message
+         << "the displacements are so large that the contact forces are lost in round-off ("
+         << at.cause.lost_in_round_off << " of the largest force)";
    }
    // Where nothing moves freely there is always an equilibrium, whatever the friction.
    else if (const Index node = s.problem.rigid_motions.cols() > 0 ? s.above_critical(p) : -1;
@@ -160,8 +161,8 @@ void explain_failure(Increment &at)
       if (can_lock(s.problem))
       {
          message
-            << ", and there may be none near the last one: the contact can lock itself, and "
-               "where it loses its grip a body jumps free";
+            << ", and there may be none near the last one: this contact can lock itself, and a "
+               "body jumps free where it unlocks";
       }
       message << "; residuals " << report.residual_normal << " (normal) and "
               << report.residual_tangential << " (tangential), tolerance "
@@ -233,8 +234,9 @@ IncrementReport FrictionSolver::solve(ContactState &state, const VectorXd &multi
    const ReducedProblem &of = problem();
    state.validate(of);
    require(multipliers.size() == static_cast<Index>(of.patterns.size()),
-           "friction solver: ", multipliers.size(), " load multipliers for ",
-           of.patterns.size(), " load patterns");
+           "friction solver: ", multipliers.size(),
+           " load multipliers, must be one for each of the ", of.patterns.size(),
+           " load patterns");
    for (Index k = 0; k < multipliers.size(); ++k)
    {
       require(std::isfinite(multipliers[k]),
@@ -253,9 +255,9 @@ const FrictionSettings &FrictionSolver::settings() const
 }
 void FrictionSolver::set_gap(const VectorXd &gap)
 {
-   require(gap.size() == problem().nodes() && gap.allFinite(), "friction solver: a gap of ",
-           gap.size(), " entries for ", problem().nodes(),
-           " contact nodes, must be one finite number for each");
+   require(gap.size() == problem().nodes() && gap.allFinite(), "friction solver: the gap has ",
+           gap.size(), " entries, must have a finite one for each of the ", problem().nodes(),
+           " contact nodes");
    if (!copy_)
    {
       copy_ = std::make_shared<ReducedProblem>(problem());
@@ -275,8 +277,8 @@ IncrementReport FrictionSolver::judge(const ContactState &before, const ContactS
    before.validate(problem());
    after.validate(problem());
    require(slip_error.size() == 0 || slip_error.size() == problem().slips(),
-           "friction solver: ", slip_error.size(), " errors of slips, must be none or ",
-           problem().slips());
+           "friction solver: ", slip_error.size(),
+           " errors of slips are given, must be none or ", problem().slips());
    return system_->judge(before, after, slip_error);
 }
 const Counters &FrictionSolver::counters() const

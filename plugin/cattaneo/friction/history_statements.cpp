@@ -25,7 +25,7 @@ LoadHistory load_history(const std::string &called, const std::string &text,
             "or = in quotes");
          const std::string name = quoted ? word.substr(1, end - 1) : word.substr(0, equals);
          require(point.count(name) == 0, where, ": '", name,
-                 "' is there twice, each point has one value of it; points are separated by "
+                 "' is named twice at one point, must be named once; separate points by "
                  "semicolons, as 'P=0; P=1'");
          const std::vector<std::string> loads = problem.load_names();
          require(std::find(loads.begin(), loads.end(), name) != loads.end(), where,
@@ -41,14 +41,15 @@ LoadHistory load_history(const std::string &called, const std::string &text,
    }
    for (const auto &[name, value] : points[0])
    {
-      require(value == 0, called, ": ", name, " is ", value,
-              " at the first point, must be 0: the bodies start without load, begin with '",
-              name, "=0'");
+      require(
+         value == 0, called, ": ", name, " is ", value,
+         " at the first point, must be 0, because the bodies start without load: begin with '",
+         name, "=0'");
    }
    require(points.size() > 1, called, " has one point, must have two at least, as '",
            problem.patterns.empty() ? "P" : problem.patterns[0].name, "=0; ",
            problem.patterns.empty() ? "P" : problem.patterns[0].name,
-           "=1': from one to the next loads grow");
+           "=1', because loads grow from one point to the next");
    return LoadHistory::through(problem, points);
 }
 
@@ -76,14 +77,14 @@ std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &hi
       const std::string &name = problem.patterns[l].name;
       const bool bolt = std::find(bolts.begin(), bolts.end(), name) != bolts.end();
       later.push_back((bolt ? "bolt '" : "load '") + name +
-                      (bolt ? "' is tightened at point " : "' begins towards point ") +
+                      (bolt ? "' is tightened at point " : "' grows on the way to point ") +
                       std::to_string(point));
    }
-   return later.empty()
-             ? "nothing presses the bodies together, and no load comes later: is the sign of "
-               "one of them wrong?"
-             : "nothing presses yet: " + listed(later) +
-                  " of the history (from 0), what presses must come first";
+   return later.empty() ? "no load presses the bodies together, and no other load comes later: "
+                          "does a load have the "
+                          "wrong sign?"
+                        : "no load presses the bodies together yet: " + listed(later) +
+                             " of the history (from 0), the load that presses must come first";
 }
 
 } // namespace cattaneo

@@ -16,14 +16,15 @@ NamedLoads named(const ReducedProblem &problem, const Eigen::VectorXd &multiplie
 
 LoadHistory LoadHistory::through(const std::vector<Eigen::VectorXd> &points)
 {
-   require(!points.empty(), "load history: there are no points");
+   require(!points.empty(), "load history: it has no points, must have at least two");
    LoadHistory history;
    history.times = Eigen::VectorXd::LinSpaced(points.size(), 0.0, points.size() - 1.0);
    history.multipliers.resize(points[0].size(), points.size());
    for (std::size_t k = 0; k < points.size(); ++k)
    {
       require(points[k].size() == points[0].size(), "load history: point ", k, " has ",
-              points[k].size(), " multipliers, point 0 has ", points[0].size());
+              points[k].size(), " multipliers, must have as many as point 0, ",
+              points[0].size());
       history.multipliers.col(k) = points[k];
    }
    return history;
@@ -82,12 +83,14 @@ void LoadHistory::validate(const ReducedProblem &problem) const
 {
    require(times.size() >= 2, "load history: it has ",
            times.size() == 1 ? "one point" : "no point",
-           ", must have two at least, the first without load");
-   require(multipliers.cols() == times.size(), "load history: ", multipliers.cols(),
-           " columns of multipliers for ", times.size(), " times");
+           ", must have at least two, the first without load");
+   require(multipliers.cols() == times.size(), "load history: the multipliers have ",
+           multipliers.cols(), " columns, must have one for each of the ", times.size(),
+           " times");
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
-   require(multipliers.rows() == patterns, "load history: ", multipliers.rows(),
-           " multipliers a point for ", patterns, " load patterns");
+   require(multipliers.rows() == patterns, "load history: the multipliers have ",
+           multipliers.rows(), " rows, must have one for each of the ", patterns,
+           " load patterns");
    for (Eigen::Index k = 0; k < times.size(); ++k)
    {
       require(std::isfinite(times[k]), "load history: time of point ", k, " is ", times[k],

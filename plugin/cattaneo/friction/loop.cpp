@@ -13,8 +13,8 @@ Eigen::VectorXd conjugates(const ReducedProblem &problem, const ContactState &st
    require(state.multipliers.size() == count && state.v.size() == problem.slips() &&
               state.w.size() == problem.nodes(),
            "conjugates: the state has ", state.w.size(), " nodes and ",
-           state.multipliers.size(), " load multipliers, the reduced problem has ",
-           problem.nodes(), " nodes and ", count, " load patterns");
+           state.multipliers.size(), " load multipliers, must have ", problem.nodes(), " and ",
+           count, " as the reduced problem");
    Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
    if (problem.knows_loads()) { result = problem.H * state.multipliers; }
    for (Eigen::Index k = 0; k < count; ++k)

@@ -162,7 +162,7 @@ bool LossCheck::bounded(double &apart)
    if (fallbacks_ > 0) { return false; }
    error_.value = apart;
    error_.bound = true;
-   error_.by = "the exact path was followed beside the march";
+   error_.by = "a second march on the exact path";
    return true;
 }
 

@@ -48,7 +48,8 @@ void check_loads(const FrictionSolver &solver, const LoadHistory &history,
               begins ? "its first point" : "time " + exact_text(state.time), ", and ",
               state.multipliers[l],
               at_rest ? " before any load: begin with a point without loads"
-                      : " in the state that it goes on from; begin with the loads of that");
+                      : " in the state from which the march continues: begin with the loads of "
+                        "that state");
    }
 }
 

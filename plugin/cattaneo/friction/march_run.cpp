@@ -410,7 +410,7 @@ bool MarchRun::follow_path()
       if (!record_.within_row() && is_stopped()) { return false; }
       // 2. One event or stop after the other.
       std::string reason = !started ? "the state at the start is no equilibrium"
-                                    : "states change back and forth at one load";
+                                    : "node states change back and forth at one load";
       const double before = state_.time;
       if (started && halted < patience && path_step(reason))
       {

@@ -156,7 +156,7 @@ NearContact::NearContact(const ReducedProblem &whole, const SymmetricProduct &ti
    const ThinQR motions = thin_qr(whole.rigid_motions(rows_, Eigen::all));
    constexpr double hardly = 1e-4; // the largest entry of the motion may be at another node
    require(motions.R.cols() == 0 || motions.R.diagonal().cwiseAbs().minCoeff() > hardly,
-           "near contact: a rigid motion hardly moves it");
+           "near contact: a rigid motion hardly moves its nodes");
    part.rigid_motions = motions.Q;
    remove_motions(part.K, part.rigid_motions);
    if (!whole.coupled) { part.B().setZero(); }

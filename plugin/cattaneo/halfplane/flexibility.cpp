@@ -38,13 +38,13 @@ Flexibility plane_flexibility(const SurfaceTrace &trace, const Material &materia
    const double from = first.x[0], to = last.x[last.order()];
    require(!symmetric || from >= 0 || to <= 0, "half-plane: the contact line from ", from,
            " to ", to,
-           " along the surface crosses the plane of symmetry at 0, must lie beside it");
+           " along the surface crosses the plane of symmetry at 0, must lie on one side of it");
    const double length = symmetric ? 2 * std::max(-from, to) : to - from;
    require(std::isfinite(depth) && depth >= 2 * length,
-           "half-plane: its displacements are relative to the depth ", depth,
-           ", must be stated and at least twice the length of the contact, ", 2 * length,
-           symmetric ? " with its mirror image" : "",
-           " (contact under given forces does not depend on it)");
+           "half-plane: the depth to which its displacements are relative is ", depth,
+           ", must be given, and be at least twice the length of the contact",
+           symmetric ? " with its mirror image" : "", ", ", 2 * length,
+           " (under given forces the contact does not depend on it)");
 
    const double below = material.plane_modulus() / (4 * material.mu());
    MatrixXd direct = -kernel_integrals(trace, trace, logarithm());

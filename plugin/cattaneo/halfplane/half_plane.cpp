@@ -89,8 +89,8 @@ ContactLine surface_line(const ContactLine &other, const Surface &surface)
    double length = 0;
    for (auto of = other.chains.rbegin(); of != other.chains.rend(); ++of)
    {
-      require(!of->elements.empty(), "half-plane: the contact line has no elements between its "
-                                     "nodes, needs those on which the body is interpolated");
+      require(!of->elements.empty(), "half-plane: the contact line has no elements, must have "
+                                     "those of the body above");
       require(!of->loop, "half-plane: the contact line is a closed loop, must be open");
       LineChain chain;
       chain.first = n - of->first - of->nodes;
@@ -278,7 +278,7 @@ void HalfPlane::validate(Formulation formulation) const
    const bool plane = formulation == Formulation::plane;
    require(
       plane || material.state == PlaneState::strain,
-      "half-plane: its material is one of plane stress, must be of plane strain about an axis");
+      "half-plane: its material is in plane stress, must be of plane strain about an axis");
    require(point.allFinite(), "half-plane: the point of its surface is ", point,
            ", must be finite");
    require(std::abs(normal.norm() - 1) <= 1e-9 &&
@@ -304,8 +304,8 @@ void HalfPlane::validate(Formulation formulation) const
       require(std::count_if(forces.begin(), forces.end(),
                             [&](const FarForce &other)
                             { return other.pattern == load.pattern; }) == 1,
-              "half-plane: two far forces are of the pattern '", load.pattern,
-              "', must be one");
+              "half-plane: two far forces have the pattern '", load.pattern,
+              "', must be one: add them up");
    }
    for (const BulkStress &load : bulk)
    {
@@ -315,8 +315,8 @@ void HalfPlane::validate(Formulation formulation) const
       require(std::count_if(bulk.begin(), bulk.end(),
                             [&](const BulkStress &other)
                             { return other.pattern == load.pattern; }) == 1,
-              "half-plane: two bulk stresses are of the pattern '", load.pattern,
-              "', must be one");
+              "half-plane: two bulk stresses have the pattern '", load.pattern,
+              "', must be one: add them up");
    }
 }
 
@@ -348,10 +348,10 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
          const LineNode &last = other.nodes[chain.first + (end ? chain.nodes - 1 : 0)];
          require(body.symmetric || other.formulation != Formulation::plane || chain.loop ||
                     chain.ends[end] != LineEnd::symmetry,
-                 "half-plane: the contact node at ", last.position,
-                 " is held along the surface, where the contact ends: for half a model its "
-                 "plane of symmetry must be said (symmetric = true, with `point` on it), and "
-                 "that there is none otherwise (symmetric = false)");
+                 "half-plane: a support holds the last contact node, at ", last.position,
+                 ", along the surface: say whether this is a plane of symmetry. For half a "
+                 "model set symmetric = true, with `point` on the plane, else "
+                 "symmetric = false");
       }
    }
    const Surface surface(body, other);
@@ -395,9 +395,11 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    const MatrixXd flexible = F(kept, kept);
    DenseCholesky factor;
    require(factor.compute(flexible),
-           "half-plane: its flexibility is not positive definite. The depth ", body.depth,
-           " that displacements are relative to must be larger, or Poisson's ratio ",
-           body.material.poisson, " further from its limits");
+           "half-plane: its flexibility is not positive definite: choose a larger depth than ",
+           body.depth,
+           " (to which displacements are relative), or a Poisson's ratio further from its "
+           "limits than ",
+           body.material.poisson);
    const Eigen::SparseMatrix<double> M = kept_of(mass, kept);
    MatrixXd S = M * (factor.inverse() * M);
    S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
@@ -512,7 +514,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
       }
    }
    require(!standing.empty(),
-           "half-plane: it is at no interface, must be the second side of one");
+           "half-plane: it is in no interface, must be the second side of one");
    // The lines of bodies on it run in the opposite direction of its own.
    std::stable_sort(standing.begin(), standing.end(),
                     [](const Standing &a, const Standing &b) { return a.along > b.along; });

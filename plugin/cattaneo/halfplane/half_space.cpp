@@ -75,9 +75,9 @@ std::vector<std::array<long, 2>> cells_of(const HalfSpace &contact)
       require((edges - whole).cwiseAbs().maxCoeff() <= 1e-9 &&
                  edges.cwiseAbs().maxCoeff() < 1e9,
               "half-space: the centre of rectangle ", i, " is ", place, ", ", edges,
-              " edges from the first, must be whole numbers of edges");
+              " edges from the first centre, must be whole numbers of edges");
       cells.push_back({std::lround(whole[0]), std::lround(whole[1])});
-      require(known.insert(cells.back()).second, "half-space: the rectangle at ", place,
+      require(known.insert(cells.back()).second, "half-space: the rectangle centred at ", place,
               " is there twice");
    }
    return cells;
@@ -125,7 +125,7 @@ DirectedEdges edges_of(const HalfSpace &contact)
       {
          const auto [found, first] = edges.try_emplace({corners[k], corners[(k + 1) % 3]}, i);
          require(first, "half-space: the triangles ", found->second, " and ", i,
-                 " lie on the same side of the edge they share, they must not overlap");
+                 " lie on the same side of their common edge, must not overlap");
       }
    }
    return edges;
@@ -265,14 +265,14 @@ struct FreeStiffness
    {
       DenseCholesky factor;
       require(factor.compute(std::move(F)),
-              "half-space: its flexibility is not positive definite to round-off; its "
-              "cells must be fewer, or their edges less unequal");
+              "half-space: its flexibility is not positive definite within round-off: use "
+              "fewer cells, or cells with less unequal edges");
       K = factor.inverse();
       // Energy ½ (u - R y)ᵀ S (u - R y) - Gᵀ y of the far motions y, which nothing holds.
       const MatrixXd held_back = factor.solved(motions);
       DenseCholesky resistance;
       require(resistance.compute(motions.transpose() * held_back),
-              "half-space: nothing resists one of its motions, there must be more cells");
+              "half-space: one of its motions meets no resistance: use more cells");
       moved = resistance.inverse();
       clamped = -held_back * moved;
       MatrixXd half = held_back.transpose();
@@ -293,11 +293,11 @@ void HalfSpace::validate() const
               "half-space: its material is one of plane stress, must be of plane strain");
    }
    require(centres.rows() > 0 || triangles.rows() > 0,
-           "half-space: there are no rectangles and no triangles");
+           "half-space: there are neither rectangles nor triangles, must be at least two");
    if (triangles.rows() > 0)
    {
       require(centres.rows() == 0, "half-space: there are ", centres.rows(), " rectangles and ",
-              triangles.rows(), " triangles, must be of one kind");
+              triangles.rows(), " triangles, must be only one of both kinds");
       require(vertices.allFinite(),
               "half-space: a vertex of the triangles has an entry that is not finite");
       edges_of(*this);
@@ -354,9 +354,9 @@ ReducedProblem HalfSpace::problem(const VectorXd &gap) const
    validate();
    const Index n = nodes(), slips = 2 * n, rows = 3 * n;
    const std::string kind = triangles.rows() > 0 ? "triangle" : "rectangle";
-   require(gap.size() == n, "half-space: ", gap.size(), " gaps for ", n, " ", kind,
-           "s, must be one for each");
-   require(n > 1, "half-space: one ", kind, " alone, must be at least two");
+   require(gap.size() == n, "half-space: ", gap.size(), " gaps, must be ", n, ", one for each ",
+           kind);
+   require(n > 1, "half-space: there is one ", kind, ", must be at least two");
 
    // Motions of the far body, one along each force. Those within the plane come first.
    const std::vector<std::string> names = turns ? std::vector<std::string>{"Q1", "Q2", "T", "P"}

@@ -55,8 +55,9 @@ double left_turn(const Vector2d &a, const Vector2d &b, const Vector2d &c)
 std::vector<MatrixX2d> HalfSpace::outlines(const std::vector<bool> &cells) const
 {
    validate();
-   require(static_cast<Index>(cells.size()) == nodes(), "half-space: outlines of ",
-           cells.size(), " cells, must be ", nodes(), ", true or false for each");
+   require(static_cast<Index>(cells.size()) == nodes(),
+           "half-space: outlines are asked for by ", cells.size(), " values, must be ", nodes(),
+           ", true or false for each cell");
    const std::vector<Polygon> polygons = polygons_of(*this);
    const std::vector<std::vector<CellCorner>> corners = corners_of(*this, polygons);
 

@@ -181,7 +181,8 @@ HalfSpace::stresses(const Eigen::MatrixX3d &points, const Eigen::VectorXd &force
    {
       const bool above = points(i, 2) >= 0;
       require(above || other, "half-space: the point at z = ", points(i, 2),
-              " lies in the body below, which is rigid");
+              " lies in the body below, which is rigid and has no stresses, must lie in the "
+              "body above");
       // Seen from the body below, z is mirrored and shear changes its sign.
       const Vector3d side(1, 1, above ? 1 : -1), sign(above ? 1 : -1, above ? 1 : -1, 1);
       Matrix3d sum = Matrix3d::Zero();

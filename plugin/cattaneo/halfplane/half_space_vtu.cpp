@@ -48,7 +48,7 @@ void write_vtu(const std::string &file, const HalfSpace &contact, const ReducedP
    const Index n = contact.nodes();
    require(problem.position.rows() == n && problem.position.leftCols(2) == contact.middles() &&
               problem.components() == 2,
-           "VTU file '", file, "': the reduced problem is not that of the half-spaces");
+           "VTU file '", file, "': the reduced problem does not belong to these half-spaces");
    state.validate(problem);
 
    // Corners run round each cell, which has its own ones.

@@ -69,7 +69,7 @@ Eigen::VectorXd Heights::at(const Eigen::MatrixX2d &points) const
       const Eigen::Array2d place = point.array() / step.array() + most / 2;
       // A point on the rim belongs to the grid, whatever its rounding.
       require((place >= -1e-9).all() && (place <= most + 1e-9).all(), "heights: the point ",
-              point, " lies outside of what was measured, |x| <= ", most[0] * step[0] / 2,
+              point, " lies outside of the measured part, |x| <= ", most[0] * step[0] / 2,
               ", |y| <= ", most[1] * step[1] / 2);
       const Eigen::Array2d cell = place.floor().max(0).min(most - 1), share = place - cell;
       const auto i = static_cast<Index>(cell[0]), j = static_cast<Index>(cell[1]);
@@ -86,11 +86,12 @@ Heights read_heights(const std::string &file, double unit)
    require_positive("heights: unit", unit);
    const std::string text = read_whole(file), where = "file '" + file + "': ";
    const std::vector<std::string> first = split(text.substr(0, text.find('\n')), "\r\n");
-   require(!first.empty() && (first[0] == "aISO-1.0" || first[0] == "aBCR-1.0"), where,
-           "its first line must be aISO-1.0 or aBCR-1.0, a text file of surface data (SDF)");
+   require(
+      !first.empty() && (first[0] == "aISO-1.0" || first[0] == "aBCR-1.0"), where,
+      "its first line must be aISO-1.0 or aBCR-1.0, as in a text file of surface data (SDF)");
    // Header, data and trailer are separated by stars.
    const std::size_t star = text.find('*');
-   require(star != std::string::npos, where, "there is no line with a * after the header");
+   require(star != std::string::npos, where, "a line with a * must follow the header");
    const HeightsHeader header(where, text.substr(0, star));
    Heights heights;
    heights.step[0] = header.length("Xscale") / unit;

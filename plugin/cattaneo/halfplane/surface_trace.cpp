@@ -52,7 +52,7 @@ SurfaceTrace::SurfaceTrace(Index unknowns, std::vector<SurfaceElement> elements)
       const SurfacePoints at = points(element, VectorXd::LinSpaced(4 * order + 1, 0, 1));
       require(at.dx.minCoeff() > 0, "half-plane: the contact element from ", element.x[0],
               " to ", element.x[order],
-              " along the surface turns back on itself, its nodes must follow each other along "
+              " along the surface turns back on itself: its nodes must follow each other along "
               "the surface");
       require(element.x[0] >= end,
               "half-plane: two contact elements overlap on the surface, one begins at ",

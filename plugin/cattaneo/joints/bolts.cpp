@@ -142,12 +142,13 @@ int BoltedJoint::last_tightening(const LoadHistory &history) const
       require(forces.maxCoeff() > 0, where, "is never tightened: a point must name it, as '",
               bolts_[b].load, "=1', or it must be left out");
       require(forces[forces.size() - 1] > 0, where,
-              "is loosened at the end, must be tightened then");
+              "is loosened at the last point, must be tightened there");
       for (int k = 0; k < history.pieces(); ++k)
       {
          const LoadPiece piece = history.piece(k);
          if (piece.from[load(b)] == piece.to[load(b)]) { continue; }
-         require(piece.cycle == 0, where, "changes within the cycle, must be tightened before");
+         require(piece.cycle == 0, where,
+                 "changes its preload within the cycle, must be tightened before the cycle");
          last = std::max(last, k);
       }
    }
@@ -291,8 +292,8 @@ MarchReport BoltedJoint::march(const Part &part, ContactState &state,
       go_back(part, before, beyond, pushes, settings, reached);
       report.status = FrictionStatus::stopped;
       report.message = "the bolt '" + bolts_[pushes].load +
-                       "' carries nothing any more and would push its ends apart, a real one "
-                       "falls loose";
+                       "' has no tension left and would be compressed, where a real bolt "
+                       "becomes loose";
       report.time = report.event_time = reached.time;
       report.event_multipliers = reached.multipliers;
    }

@@ -41,7 +41,7 @@ std::map<std::string, std::set<Ends>> parts_of_boundary(const InputDeck &deck)
    {
       require(element.corners != 2 || outer.count(line(element)), element.place, ": element ",
               element.number, ", a line (", element.type,
-              "), is no edge of the body's boundary, must be one or be left out");
+              "), must be an edge of the body's boundary, or be left out");
    }
    for (const auto &[name, elements] : deck.element_sets)
    {

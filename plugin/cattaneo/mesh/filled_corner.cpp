@@ -39,7 +39,8 @@ FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point)
          require(corner.attribute == 0 || corner.attribute == attribute,
                  "elements of the attributes ", corner.attribute, " and ", attribute,
                  " meet at the corner ", point,
-                 ": the exponents of three materials are not known here");
+                 ", must be one attribute: exponents are known for one material on each side "
+                 "of the contact only");
          corner.attribute = attribute;
       }
    }

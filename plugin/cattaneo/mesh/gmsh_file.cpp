@@ -129,8 +129,9 @@ public:
       if (in_.binary)
       {
          in_.in_section("$MeshFormat");
-         require(in_.integer() == 1, "Gmsh file is of a machine with another order of bytes: "
-                                     "save it as ASCII");
+         require(in_.integer() == 1,
+                 "Gmsh file was written on a machine with another order of bytes: "
+                 "save it as ASCII");
       }
       while (std::getline(in_.lines(), line)) { section(line); }
    }
@@ -215,7 +216,7 @@ private:
          const long count = in_.count(in_.large());
          require(groups.size() < 2 || dimension == 0, "mesh file has a ",
                  dimension == 1 ? "curve, " : "surface, ", entity,
-                 ", in two physical groups, must be in one");
+                 ", in two physical groups, must be in one only");
          for (long k = 0; k < count; ++k)
          {
             const long number = in_.large();

@@ -18,7 +18,7 @@ std::vector<double> graded(double from, double to, double first, double growth, 
    const double length = std::abs(to - from);
    const double allowed = 1e7; // far more grid lines than any mesh can use
    require(length / std::min(first, largest) < allowed || growth > 1, "graded: first step ",
-           first, " is too small for the length ", length);
+           first, " is too small for the length ", length, ", must be larger, or grow");
 
    std::vector<double> steps;
    double sum = 0.0, step = std::min(first, largest);
@@ -28,8 +28,8 @@ std::vector<double> graded(double from, double to, double first, double growth, 
       steps.push_back(step);
       sum += step;
       step = std::min(step * growth, largest);
-      require(steps.size() < allowed, "graded: more than ", allowed, " steps from ", from,
-              " to ", to);
+      require(steps.size() < allowed, "graded: there are more than ", allowed, " steps from ",
+              from, " to ", to, ": choose larger steps");
    }
    const double missing = length - sum;
    std::size_t k = steps.size();

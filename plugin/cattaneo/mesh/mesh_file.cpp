@@ -96,9 +96,10 @@ public:
       for (std::size_t k = 0; k < corners && corners > 2; ++k)
       {
          const int elements = ++edges_[ends(vertices[k], vertices[(k + 1) % corners])];
-         require(elements < 3, "mesh file has ", what,
-                 " on an edge that two elements before it share, an edge must be of two at "
-                 "most: is it there twice, or over others?");
+         require(
+            elements < 3, "mesh file has ", what,
+            " on an edge that two earlier elements share, an edge must belong to at most two "
+            "elements: is this one listed twice, or does it overlap others?");
       }
    }
    /// At the end of a file.
@@ -204,7 +205,7 @@ std::string why_not(long type)
       if (types.count(type))
       {
          return "a " + name +
-                ": bodies are plane, in Gmsh mesh their surface alone (gmsh -2) "
+                ", but bodies must be plane: in Gmsh mesh their surface only (gmsh -2) "
                 "and save no volume";
       }
    }
@@ -317,7 +318,7 @@ MeshNames gmsh_names(const std::string &file)
       std::getline(in, line);
       const std::size_t from = line.find('"'), to = line.rfind('"');
       require(in.good() && from != std::string::npos && to > from, "mesh file: physical group ",
-              k + 1, " of ", expected, " has no name, must be DIMENSION NUMBER \"NAME\"");
+              k + 1, " of ", expected, " cannot be read, must be DIMENSION NUMBER \"NAME\"");
       std::string name = line.substr(from + 1, to - from - 1);
       std::replace(name.begin(), name.end(), ' ', '_');
       if (dimension == 1) { names.boundary[name] = {number}; }
@@ -492,11 +493,11 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
    std::ostringstream text;
    text
       << "mesh '" << name << "': " << pairs
-      << " pairs of nodes lie on one another (nearer than a thousandth of their edges), as at ("
+      << " pairs of nodes coincide (nearer than a thousandth of their edges), as at ("
       << first->x << ", " << first->y
-      << "): the body is cut there, and its faces may pass through each other: name each face "
-         "by itself and put an interface between them, or, if the body is one piece, join "
-         "them (in Gmsh: Coherence Mesh)";
+      << "). The body is cut there, and its faces may pass through each other: name each face "
+         "by itself and put an interface between them, or, if the body is one piece, merge "
+         "the nodes (in Gmsh: Coherence Mesh)";
    return text.str();
 }
 
@@ -534,10 +535,11 @@ std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name)
    if (missed <= 1e-10 * high.Max()) { return ""; }
    missed /= high.Max();
    std::ostringstream text;
-   text << "the mesh of '" << name << "' is curved, elements of order " << order
-        << " miss it by " << missed
-        << " of its size: turning the body takes forces that it should not; use option -order "
-        << bent;
+   text
+      << "the mesh of '" << name << "' is curved, but elements of order " << order
+      << " follow it with an error of " << missed
+      << " of its size, so that a rotation of the body causes false forces: use option -order "
+      << bent;
    return text.str();
 }
 

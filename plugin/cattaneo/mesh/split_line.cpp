@@ -99,10 +99,11 @@ void split_line(GmshMesh &mesh, long group, long right, const std::string &name)
       for (const auto &[of, node, what] : {std::tuple{&starts, element.nodes[0], "begin"},
                                            std::tuple{&stops, element.nodes[1], "end"}})
       {
-         require(of->insert(node).second, "mesh file: two edges of the line '", name, "' ",
-                 what, " at node ", node,
-                 ", it must run one way from end to end to be split (in Gmsh a minus sign "
-                 "turns a curve round: Physical Curve(5) = {1, -2};)");
+         require(
+            of->insert(node).second, "mesh file: two edges of the line '", name, "' ", what,
+            " at node ", node,
+            ", must run in one direction from end to end to be split (in Gmsh a minus sign "
+            "reverses a curve: Physical Curve(5) = {1, -2};)");
       }
    }
    require(!lines.empty(), "mesh file: the line '", name, "' has no edges, nothing is split");

@@ -49,7 +49,7 @@ std::string history_row(const IncrementRecord &record, double lost, Eigen::Index
 {
    require(record.multipliers.size() == patterns && record.conjugates.size() == patterns,
            "history table: a record has ", record.multipliers.size(),
-           " load multipliers, the problem ", patterns, " load patterns");
+           " load multipliers, must have one for each of the ", patterns, " load patterns");
    std::ostringstream out;
    out.precision(17);
    out << record.time << ',' << record.cycle;
@@ -79,9 +79,10 @@ void check_goes_on(const std::string &file, const std::string &last, const Conta
    const bool same =
       static_cast<Eigen::Index>(row.size()) >= patterns + 2 && row[0] == from.time &&
       Eigen::Map<const Eigen::VectorXd>(row.data() + 2, patterns) == from.multipliers;
-   require(same, "file '", file, "' cannot be continued: its last row up to time ", from.time,
-           " is '", last,
-           "', which is not the state from which the march continues: it is of another march");
+   require(
+      same, "file '", file, "' cannot be continued: its last row up to time ", from.time,
+      " is '", last,
+      "', not the state from which the march continues: the file belongs to another march");
 }
 
 } // namespace
@@ -126,7 +127,7 @@ std::string node_header(const ReducedProblem &problem)
    require(problem.arc_length.size() == problem.nodes() &&
               problem.position.rows() == problem.nodes() &&
               problem.weights.size() == problem.nodes(),
-           "node table: the reduced problem has no arc length, positions or weights");
+           "node table: the reduced problem must have arc lengths, positions and weights");
    return std::string("time,node,") + (interfaces(problem) > 1 ? "interface," : "") +
           "arc_length,x,y,state,p," + (has_disc(problem) ? "q1,q2,slip1,slip2" : "q,slip") +
           ",opening";

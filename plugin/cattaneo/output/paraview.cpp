@@ -152,10 +152,10 @@ ContactLineFields::ContactLineFields(const ReducedProblem &problem,
    : problem_(problem), directory_(directory), name_(name)
 {
    const Eigen::Index n = problem.nodes();
-   require(problem.components() <= 1, "ParaView output: plane problems only, this one has ",
-           problem.components(), " tangential components");
+   require(problem.components() <= 1, "ParaView output: the problem has ", problem.components(),
+           " tangential components, must have at most 1");
    require(problem.arc_length.size() == n && problem.position.rows() == n,
-           "ParaView output: the reduced problem has no arc length or positions");
+           "ParaView output: the reduced problem must have arc lengths and positions");
    require(!problem.chains.empty(), "ParaView output: the reduced problem has no chains, which "
                                     "say what nodes follow each other (one_chain() for all)");
 }
@@ -253,7 +253,7 @@ ReductionFields::ReductionFields(Reduction &reduction,
    }
    const std::size_t given = bodies.size() + (half_plane ? 1 : 0);
    require(given == reduction.bodies.size(), "ParaView output: ", given,
-           " bodies for a reduction of ", reduction.bodies.size());
+           " bodies are given, must be as many as in the reduction, ", reduction.bodies.size());
    const auto name = [&](std::size_t k)
    {
       const std::string &own = reduction.bodies[k].name;

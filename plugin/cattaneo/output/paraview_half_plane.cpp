@@ -20,7 +20,7 @@ constexpr const char *names[] = {"displacement", "sigma_xx", "sigma_yy",
 mfem::Mesh window(const HalfPlane &body, const ContactLine &line)
 {
    require(line.formulation == Formulation::plane,
-           "ParaView output: fields of a half-space are not known, only of a half-plane");
+           "ParaView output: the contact line is of a half-space, must be of a half-plane");
    const Vector2d tangent(body.normal[1], -body.normal[0]);
    std::vector<double> places;
    for (const LineNode &node : line.nodes)

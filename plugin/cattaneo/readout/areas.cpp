@@ -10,9 +10,9 @@ ContactAreas contact_areas(const ReducedProblem &problem, const ContactState &st
 {
    const Eigen::Index n = problem.nodes();
    require(problem.components() == 2, "contact areas: the problem has ", problem.components(),
-           " tangential components, must have two; zones() are those of a line");
+           " tangential components, must have 2: on a line use zones()");
    require(problem.weights.size() == n,
-           "contact areas: the problem has no weights of its nodes, and so no areas");
+           "contact areas: the problem has no weights of its nodes, which areas need");
    state.validate(problem);
    ContactAreas areas;
    const auto add = [&](SurfacePart &part, Eigen::Index node)

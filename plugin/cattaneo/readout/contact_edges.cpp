@@ -56,9 +56,9 @@ void check(const ReducedProblem &problem, const ContactState &pressed,
            const ContactState &loaded)
 {
    require(problem.components() == 1,
-           "the near-edge field is that of a plane contact with "
-           "friction; this problem has ",
-           problem.components(), " tangential components a node.");
+           "the near-edge field needs a plane contact with "
+           "friction: the problem has ",
+           problem.components(), " tangential components a node, must have 1.");
    pressed.validate(problem);
    loaded.validate(problem);
 }
@@ -69,9 +69,8 @@ void check_one_chain(const ReducedProblem &problem)
    for (Index i = 1; i < problem.nodes(); i++)
    {
       require(chain[i] == chain[i - 1],
-              "the contact line has separate pieces, one ends at node ", i - 1,
-              " at arc length ", problem.arc_length[i - 1],
-              "; edges can be read from a line of one piece only.");
+              "the contact line has several pieces (one ends at node ", i - 1,
+              " at arc length ", problem.arc_length[i - 1], "), must be one piece.");
    }
 }
 
@@ -83,9 +82,9 @@ void check_seam(const ReducedProblem &problem, const ContactState &loaded)
    const std::vector<bool> shut = closed_nodes(problem, loaded);
    for (const Index i : {Index(0), problem.nodes() - 1})
    {
-      require(!shut[i], "the contact line is closed and in contact at node ", i,
-              ", next to where it begins; edges are read from a closed line only if it is open "
-              "at its first and last node (number them from there).");
+      require(!shut[i], "the contact line is a loop, and touches at node ", i,
+              ", next to its beginning: a loop must be out of contact "
+              "at its first and last node (let its numbers begin there).");
    }
 }
 
@@ -463,7 +462,7 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
 {
    check(problem, pressed, loaded);
    require(Index(tied.size()) == problem.nodes(), "there are ", tied.size(),
-           " entries for tied nodes and ", problem.nodes(), " nodes.");
+           " entries for tied nodes, must be one for each of the ", problem.nodes(), " nodes.");
    ContactState stuck = loaded;
    stuck.v = pressed.v;
    stuck.w = -problem.gap;
@@ -489,7 +488,7 @@ void ContactEdge::validate(const ReducedProblem &problem) const
    require(first >= 0 && last < n && first <= last, "the edge is of nodes ", first, " to ",
            last, ", must be of 0 to ", n - 1, " (is it one of this problem?)");
    require(problem.weights.size() == n, "the problem has ", problem.weights.size(),
-           " weights for its ", n, " nodes");
+           " weights, must have one for each of its ", n, " nodes");
 }
 
 EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &state,

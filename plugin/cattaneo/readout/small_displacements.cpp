@@ -54,12 +54,12 @@ std::vector<std::string> SmallDisplacements::warnings() const
       if (slip_[k].share > 1)
       {
          add(slip_[k], "a node slips by ", " of its distance from the next",
-             "it still faces what it faced at rest");
+             "but it is computed as if it still faced the same place as at rest");
       }
       if (gap_[k].share > 0.1)
       {
          add(gap_[k], "contact closes or opens a gap of ", " of the length of the interface",
-             "the gap is that along the normals at rest");
+             "but the gap is measured along the normals at rest");
       }
    }
    return all;
@@ -72,8 +72,9 @@ std::string rotation_warning(const std::string &body, double rotation,
    std::ostringstream text;
    text << "body " << body << " turns by " << rotation * 180 / std::acos(-1.0)
         << " degrees at (" << place[0] << ", " << place[1]
-        << "): displacements are taken for small, its turned shape and the forces on it are "
-           "wrong by as much";
+        << "): displacements are assumed to be small, so that its turned shape and the forces "
+           "on it have a relative error "
+           "of about this angle";
    return text.str();
 }
 

@@ -150,9 +150,10 @@ void check_line(const ReducedProblem &problem)
    const Index n = problem.nodes();
    require(problem.arc_length.size() == n && problem.weights.size() == n,
            "zones: the reduced problem has no arc length or weights");
-   require(!problem.chains.empty(),
-           "zones: the reduced problem does not say which nodes follow each other, chains must "
-           "be set (one_chain() if it is one line)");
+   require(
+      !problem.chains.empty(),
+      "zones: the reduced problem has no chains, which say which nodes follow each other: set "
+      "them (one_chain() if it is one line)");
 }
 
 /// The data without reserve and slip path.

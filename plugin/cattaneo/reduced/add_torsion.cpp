@@ -24,8 +24,8 @@ UnionRows twisting_rows(UnionRows rows, const std::vector<CondensedBody> &twisti
       require(other ? holds(twisting[other->first], other->second, 0) : row.shares.size() == 1,
               "add torsion: the contact node at ", twisting[b].line.nodes[node].position,
               " of ", called(twisting, b),
-              " is held around the axis: the contact line must end before it, or the other "
-              "side be the slave");
+              " is held around the axis: end the contact line before it, or make the other "
+              "side the slave");
    }
    return rows;
 }
@@ -43,29 +43,32 @@ void Reduction::add_torsion(CondensedBody body1, std::optional<CondensedBody> bo
 void Reduction::add_torsion(std::vector<CondensedBody> twisting)
 {
    const Eigen::Index n = problem.nodes();
-   require(obstacle_.size() == 0,
-           "add torsion: the obstacle already moves, torsion must be added before");
+   require(
+      obstacle_.size() == 0,
+      "add torsion: the obstacle moves already, must be called before add_obstacle_motion()");
    require(torsion.empty() && problem.components() == 1, "add torsion: the reduction has ",
            problem.components(), " tangential components a node, must have 1");
-   require(twisting.size() == bodies.size(), "add torsion: of ", twisting.size(),
-           " bodies to a reduction of ", bodies.size(), ", must be as many");
-   require(shanks_.empty(),
-           "add torsion: the reduction has shanks, torsion must be added before");
+   require(twisting.size() == bodies.size(), "add torsion: ", twisting.size(),
+           " bodies are given, must be as many as in the reduction, ", bodies.size());
+   require(
+      shanks_.empty(),
+      "add torsion: the reduction has shanks already, must be called before they are added");
    for (std::size_t b = 0; b < bodies.size(); ++b)
    {
       require(bodies[b].line.formulation == Formulation::axisymmetric &&
                  twisting[b].line.formulation == Formulation::torsion,
-              "add torsion: body ", b, " must be axisymmetric, and what is added its torsion");
+              "add torsion: body ", b,
+              " must be axisymmetric, and the body that is added its torsion");
       const auto own = bodies[b].line.each(&LineNode::position),
                  other = twisting[b].line.each(&LineNode::position);
       require(own.rows() == other.rows() &&
                  (own - other).cwiseAbs().maxCoeff() <= 1e-12 * own.cwiseAbs().maxCoeff(),
-              "add torsion: the contact nodes of body ", b,
-              " are not those of its torsion, must be the same");
+              "add torsion: body ", b,
+              " and its torsion have different contact nodes, must be the same");
       counters += twisting[b].counters;
    }
    require(problem.knows_loads(), "add torsion: the response H of the reduction's loads is not "
-                                  "known, must be");
+                                  "known, which torsion needs");
    const Eigen::Index before = problem.H.rows();
    torsion_pattern_ = join(twisting, problem.patterns);
    const auto count = static_cast<Eigen::Index>(problem.patterns.size());

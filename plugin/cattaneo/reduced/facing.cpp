@@ -100,7 +100,7 @@ std::vector<ElementCurve> curves(const ContactLine &line, const std::string &wha
    {
       require(!chain.elements.empty(), what, ": the contact line from ",
               line.nodes[chain.first].position,
-              " has no elements, nodes that do not match need them");
+              " has no elements, which sides with nodes that do not match need");
       for (const LineElement &element : chain.elements)
       {
          const Index order = element.order();

@@ -102,8 +102,8 @@ RowsOfInterface::RowsOfInterface(const Interface &given,
    for (const InterfaceSide *side : {&given.first, &given.second})
    {
       require(side->body >= (side == &given.first ? 0 : -1) && side->body < count, met.what,
-              ": a side is of body ", side->body, ", must be from 0 to ", count - 1,
-              ", or -1 for a rigid obstacle as the second");
+              ": a side names body ", side->body, ", must be from 0 to ", count - 1,
+              ", or -1 for a rigid obstacle as the second side");
    }
    met.what +=
       " of " + called(bodies, given.first.body) + " and " + called(bodies, given.second.body);
@@ -154,9 +154,9 @@ Side RowsOfInterface::side(const InterfaceSide &given) const
       const bool same = found != number.end() &&
                         (body.line.nodes[found->second].position - node.position).norm() <=
                            1e-9 * node.spacing;
-      require(same, met.what, ": the node ", node.position, " is none that ",
-              called(bodies_, given.body),
-              " was condensed to, it must be condensed to the nodes of all of its interfaces "
+      require(same, met.what, ": ", called(bodies_, given.body),
+              " was not condensed to the node ", node.position,
+              ", must be condensed to the nodes of all of its interfaces "
               "(joined())");
       made.nodes.push_back(found->second);
    }
@@ -170,8 +170,8 @@ void RowsOfInterface::pair_nodes()
    const Index n = met.slave.line.size();
    const Pairing &pairs = *given_.pairing;
    require(static_cast<Index>(pairs.partner.size()) == n && pairs.gap.size() == n, met.what,
-           ": its pairing is of ", pairs.partner.size(), " nodes, must be of the ", n,
-           " of its first side");
+           ": its pairing has ", pairs.partner.size(),
+           " nodes, must have those of its first side, ", n);
    std::set<int> taken;
    for (int partner : pairs.partner)
    {
@@ -236,11 +236,11 @@ void RowsOfInterface::meet()
          const double most = given_.most_overlap * met.mortar.size[i];
          require(met.mortar.gap[i] >= -most, met.what, ": the sides overlap by ",
                  -met.mortar.gap[i], " at ", met.slave.line.nodes[met.mortar.nodes[i]].position,
-                 ", at most ", most, " is allowed (", given_.most_overlap,
+                 ", must be at most ", most, " (", given_.most_overlap,
                  " of the element's length): ",
                  met.mortar.gap[i] < -met.mortar.size[i]
-                    ? "are these the sides that touch, and the bodies in their places?"
-                    : "allow more if they are to be pressed apart, or give the gap");
+                    ? "are these the sides that touch, and are the bodies in their places?"
+                    : "allow more for an interference fit, or give the gap");
       }
       return;
    }
@@ -399,17 +399,17 @@ std::string RowsOfInterface::refusal(const ContactRow &row, Index i) const
    if (holds(slave_body(), row.slave.second, 1) && partner_holds(node, 1))
    {
       return where +
-             " is fixed normal to the line, it must be able to open: the contact line "
-             "must end before it, or the other side be the slave (slave: " +
+             " is fixed normal to the line, so that it cannot open: end the contact line "
+             "before it, or make the other side the slave (slave: " +
              other_slave + ")";
    }
    if (row.slides[0] || met.master.body < 0 || given_.pairing) { return {}; }
    const int *other = faced(i, row.tangent);
    if (other && holds(bodies_[met.master.body], *other, 0)) { return {}; }
    return where +
-          " is fixed along the line, and what it faces is not: the other side must be "
+          " is fixed along the line, but the side that it faces is not: make the other side "
           "the slave (slave: " +
-          other_slave + "), or be fixed there as well";
+          other_slave + "), or fix it there as well";
 }
 
 /// Does anything that some nodes depend on depend on one that they determine?
@@ -475,11 +475,12 @@ bool RowsOfInterface::can_be_slave(const Slaves &taken, bool in_rings)
    {
       if (without.size() >= met.slave.nodes.size())
       {
-         refused_ = met.what + ": all nodes of " + called(bodies_, met.slave.body) +
-                    " there carry rows of interfaces before it, or would close a ring of them: "
-                    "each place where two sides meet must be named once, or the other side be "
-                    "the slave (slave: " +
-                    (met.of_second ? "first" : "second") + ")";
+         refused_ =
+            met.what + ": all nodes of " + called(bodies_, met.slave.body) +
+            " there are in contact by earlier interfaces, or would close a ring of interfaces: "
+            "name each place where two sides meet once, or make the other side "
+            "the slave (slave: " +
+            (met.of_second ? "first" : "second") + ")";
          return false;
       }
       meet();
@@ -525,7 +526,7 @@ bool RowsOfInterface::can_be_slave(const Slaves &taken, bool in_rings)
                     on_itself = tip || depends_on_itself(determined, on, taken_);
          if (on_itself && !tip && !in_rings)
          {
-            refused_ = met.what + ": its rows would close a ring";
+            refused_ = met.what + ": its contact nodes would close a ring of interfaces";
             return false;
          }
          if (on_itself) { without.push_back(number); }
@@ -554,8 +555,8 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
       require(body.line.formulation == bodies[0].line.formulation &&
                  body.line.formulation != Formulation::torsion &&
                  body.line.formulation != Formulation::space,
-              "reduce: the bodies must be all plane or all axisymmetric (those of torsion are "
-              "added to a reduction of these, those in space are reduced by a pairing)");
+              "reduce: the bodies must be all plane or all axisymmetric (add torsion to their "
+              "reduction, and reduce bodies in space by a pairing)");
    }
    // A node that several interfaces share is that of the first one. Ties come before all
    // others: where a tie and a contact meet nothing opens.
@@ -582,7 +583,8 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
    for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
    {
       require(touched.count(b), "reduce: ", called(bodies, b),
-              " is at no interface, nothing touches it: it must be at one, or be left out");
+              " is in no interface, so nothing touches it: name an interface for it, or leave "
+              "it out");
    }
    choose_dependents(bodies, rows);
    return rows;

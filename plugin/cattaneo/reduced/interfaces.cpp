@@ -159,14 +159,14 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
 Reduction reduce(CondensedBody body, const ScalarField &gap)
 {
    require(body.line.formulation != Formulation::torsion,
-           "reduce: the body is one of torsion, which is to be added to a reduction");
+           "reduce: the body is of torsion, must be added to a reduction (add_torsion())");
    require(body.line.formulation != Formulation::space,
-           "reduce: the body is in space, its gaps must be given for each contact node");
+           "reduce: the body is in space, where gaps must be given for each contact node");
    const Index n = body.line.size();
    for (int row : body.held)
    {
       require(row < n, "reduce: the contact node at ", body.line.nodes[row % n].position,
-              " is fixed normal to the line, it must be able to open: the contact line must "
+              " is fixed normal to the line, so that it cannot open: end the contact line "
               "end before it");
    }
    Interface contact;
@@ -191,12 +191,12 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    const Index n = body1.line.size();
    require(body1.line.formulation == body2.line.formulation &&
               body1.line.formulation != Formulation::torsion,
-           "reduce: the bodies must be both plane or both axisymmetric (those of torsion are "
-           "added to a reduction of these)");
+           "reduce: the bodies must be both plane or both axisymmetric (add torsion to their "
+           "reduction)");
    require(body2.line.size() == n && static_cast<Index>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
-           "reduce: contact lines of ", n, " and ", body2.line.size(),
-           " nodes with a pairing of ", pairing.partner.size(), ", must be as many");
+           "reduce: the contact lines have ", n, " and ", body2.line.size(),
+           " nodes and the pairing ", pairing.partner.size(), ", must be equally many");
    Interface contact;
    contact.first = {0, body1.line};
    contact.second = {1, body2.line};
@@ -208,7 +208,7 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    const InterfaceReport &report = made.interfaces[0];
    require(report.without_row.empty(), "reduce: the contact node at ",
            report.without_row.empty() ? Eigen::Vector2d() : report.without_row[0],
-           " is fixed normal to the line, it must be able to open: the contact line must "
+           " is fixed normal to the line, so that it cannot open: end the contact line "
            "end before it");
    return made;
 }
@@ -220,13 +220,13 @@ SeparateBodies separate(const std::vector<CondensedBody> &bodies,
    for (const Interface &interface : interfaces)
    {
       require(!interface.tied, "interface '", interface.name,
-              "': it is tied, its bodies have no displacements of their own there");
+              "': it is tied, so that its bodies have no displacements of their own there");
    }
    for (std::size_t b = 0; b < bodies.size(); ++b)
    {
       require(bodies[b].moved.size() == 0, "separate: a load moves contact nodes of ",
               called(bodies, static_cast<int>(b)),
-              ", which only bodies that are united know: the contact must end before them");
+              ", which is possible for united bodies only: end the contact before these nodes");
    }
    std::vector<MetInterface> met;
    const RelativeDisplacement map(bodies, rows_of(interfaces, bodies, met));

@@ -229,7 +229,7 @@ std::string why_apart(const FacingLines &lines)
                                         [&](const ElementCurve &two)
                                         { return one.tangent(0.5).dot(two.tangent(0.5)) < 0; });
                   });
-   if (opposed) { return "they lie beside each other, one must lie over the other"; }
+   if (opposed) { return "they lie beside each other, must lie over each other"; }
    const Vector2d one = towards(lines.first), two = towards(lines.other);
    // Outwards is to the right. Three decimals, zeros without a sign.
    const auto rounded = [](double x) { return std::round(1e3 * x) / 1e3 + 0.0; };
@@ -296,7 +296,8 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    for (int node : without)
    {
       require(node >= 0 && node < slave.size(), what, ": node ", node,
-              " of the slave is to carry no row, must be from 0 to ", slave.size() - 1);
+              " of the slave is to have no contact condition, must be from 0 to ",
+              slave.size() - 1);
       without_[node] = true;
    }
    for (const FacingPart &part : lines_.parts) { parts_[part.element].push_back(part); }
@@ -693,12 +694,12 @@ Mortar mortar(const ContactLine &slave, const ContactLine &master,
       { return !std::count(found.free_surface.begin(), found.free_surface.end(), k); });
    require(
       !found.nodes.empty() || !taken, what,
-      ": what lies over the master are nodes that carry rows of an interface before it: "
-      "each place where two sides meet must be named once, and a side between two nodes be "
+      ": all nodes over the master are in contact by an earlier interface: "
+      "name each place where two sides meet once, and make a side that lies between two nodes "
       "the slave (slave: first or second)");
    require(!found.nodes.empty(), what,
-           ": no node of the slave lies over the master, the other side must be the slave "
-           "(slave: first or second), or the slave have finer elements");
+           ": no node of the slave lies over the master: make the other side the slave "
+           "(slave: first or second), or mesh the slave with finer elements");
    return found;
 }
 

@@ -28,7 +28,7 @@ std::string named_pattern(const ReducedProblem &problem, const std::string &name
    for (const LoadPattern &pattern : problem.patterns)
    {
       require(pattern.name != name || pattern.control == control, where,
-              ": a load pattern of that name is there already, and is controlled by ",
+              ": a load pattern with this name exists already, and is controlled by ",
               control == Control::force ? "displacement, not by force"
                                         : "force, not by displacement");
    }
@@ -72,8 +72,8 @@ void join_names(ReducedProblem &problem, std::size_t first, MatrixXd &columns)
 void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &ux,
                                     const ScalarField &uy, const ScalarField &u_theta)
 {
-   require(bodies.size() == 1, "obstacle motion '", name, "': the reduction is of ",
-           bodies.size(), " bodies, must be of one on a rigid obstacle");
+   require(bodies.size() == 1, "obstacle motion '", name, "': the reduction has ",
+           bodies.size(), " bodies, must have one, on a rigid obstacle");
    std::vector<ObstacleMotion> motions;
    for (std::size_t k = 0; k < interfaces.size(); ++k)
    {
@@ -95,7 +95,8 @@ VectorXd Reduction::displaced(const std::string &where,
               ", must be 0 to ", interfaces.size() - 1);
       const InterfaceReport &of = interfaces[motion.interface];
       require(of.bodies[1] < 0 && !of.tied, where, ": interface '", of.name, "' is ",
-              of.tied ? "tied" : "between two bodies", ", must be of one on a rigid obstacle");
+              of.tied ? "tied" : "between two bodies",
+              ", must be of a body on a rigid obstacle");
       for (Index i = 0; i < of.nodes; ++i)
       {
          const Vector2d x = of.position.row(i), t = of.tangent.row(i),
@@ -124,9 +125,8 @@ VectorXd Reduction::displaced(const std::string &where,
    {
       const Index i = row % n;
       require(known.count(row) > 0 || std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(),
-              where, ": it moves by ", d[row],
-              " along the component that is fixed at the node ",
-              Vector2d(problem.position.row(i)), ", must not");
+              where, ": it moves by ", d[row], " along the fixed component of the node ",
+              Vector2d(problem.position.row(i)), ", must not move along it");
       d[row] = 0;
    }
    return d;
@@ -218,8 +218,9 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
       resisted = factor.compute(unit.asDiagonal() * M * unit.asDiagonal()) &&
                  factor.smallest_pivot() > 1e-10;
    }
-   require(resisted, "free obstacles: the bodies do not resist all of their motions, something "
-                     "must hold the bodies or the obstacles");
+   require(resisted,
+           "free obstacles: the bodies do not resist all motions of the obstacles: support "
+           "the bodies or the obstacles");
    const auto solved = [&](const MatrixXd &forces) -> MatrixXd
    { return unit.asDiagonal() * factor.solved(unit.asDiagonal() * forces); };
    MatrixXd f(m + n, before);

@@ -28,7 +28,7 @@ VectorXd gaps(const InterfaceReport &nodes, Distance distance)
       const Vector2d x = places.row(i), t = nodes.tangent.row(i);
       all[i] = distance(x, Vector2d(t[1], -t[0]));
       require(std::isfinite(all[i]), "interface '", nodes.name, "': the node at (", x[0], ", ",
-              x[1], ") does not face the obstacle, the contact must end before it");
+              x[1], ") does not face the obstacle, end the contact before it");
    }
    return all;
 }
@@ -44,7 +44,7 @@ VectorXd gaps(const ContactSurface &surface, Distance distance)
       all[i] = distance(node.position, Vector3d(-node.normal()));
       require(std::isfinite(all[i]), "obstacle: the node at ",
               place_text(node.position, Formulation::space),
-              " does not face the obstacle, the contact must end before it");
+              " does not face the obstacle, end the contact before it");
    }
    return all;
 }
@@ -95,8 +95,8 @@ struct PolylineSide
 
 VectorXd gaps_to_polyline(const InterfaceReport &nodes, const std::vector<Vector2d> &points)
 {
-   require(points.size() >= 2, "obstacle: a line through ", points.size(),
-           " points, must be two at least");
+   require(points.size() >= 2, "obstacle: the line has ", points.size(),
+           " points, must have at least two");
    for (std::size_t k = 1; k < points.size(); ++k)
    {
       require(points[k] != points[k - 1], "obstacle: the point (", points[k][0], ", ",
@@ -145,7 +145,7 @@ VectorXd gaps_to_plane(const ContactSurface &surface, const Vector3d &point,
                        const Vector3d &normal)
 {
    require(point.allFinite() && normal.allFinite() && normal.norm() > 0,
-           "obstacle: a plane has no finite point or no normal, must have both");
+           "obstacle: a plane must have a finite point and a finite normal that is not zero");
    const Vector3d across = normal.normalized();
    return gaps(surface,
                [&](const Vector3d &x, const Vector3d &looks)
@@ -167,9 +167,9 @@ VectorXd gaps_to_curve(const InterfaceReport &nodes,
                        const std::function<double(double)> &height)
 {
    require(nodes.spacing.size() == nodes.nodes,
-           "obstacle: the distances of the nodes of "
+           "obstacle: the nodes of "
            "interface '",
-           nodes.name, "' are not known");
+           nodes.name, "' have no spacing, which this obstacle needs");
    const double step = nodes.spacing.size() > 0 ? nodes.spacing.minCoeff() : 0;
    return gaps(nodes,
                [&](const Vector2d &x, const Vector2d &looks)

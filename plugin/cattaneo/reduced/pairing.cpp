@@ -147,7 +147,7 @@ std::string advice(const ContactLine &line1, const ContactLine &line2)
    {
       const double unit = std::pow(10.0, std::floor(std::log10(loose.offset)) - 1);
       text << "a tolerance of " << std::ceil(loose.offset / unit * (1 + 1e-9)) * unit
-           << " would pair all";
+           << " would pair all nodes";
    }
    else if (!loose.facing)
    {
@@ -156,7 +156,8 @@ std::string advice(const ContactLine &line1, const ContactLine &line2)
    }
    else
    {
-      text << "no tolerance would pair all: both lines must have the same nodes over the same "
+      text << "no tolerance would pair all nodes: both lines must have as many nodes over the "
+              "same "
               "length";
    }
    text << "; the nearest nodes are " << nearest << " apart, line 1 reaches " << extent(line1)
@@ -205,8 +206,8 @@ int differing_element(const ContactLine &line1, const ContactLine &line2,
                       const Pairing &pairing)
 {
    const Eigen::Index n = line1.size();
-   require(static_cast<Eigen::Index>(pairing.partner.size()) == n, "pairing: it is of ",
-           pairing.partner.size(), " nodes, the line has ", n);
+   require(static_cast<Eigen::Index>(pairing.partner.size()) == n, "pairing: it has ",
+           pairing.partner.size(), " nodes, must have as many as the line, ", n);
    for (int partner : pairing.partner)
    {
       require(partner >= 0 && partner < line2.size(), "pairing: partner ", partner,

@@ -42,8 +42,8 @@ std::vector<ContactRow> rows_on_obstacle(const CondensedBody &body)
    for (int i = 0; i < static_cast<int>(body.nodes()); ++i)
    {
       require(!holds(body, i, 2), "reduce: the contact node at ", place_of(body, i),
-              " is fixed normal to the surface, it must be able to open: the contact must end "
-              "before it");
+              " is fixed normal to the surface, so that it cannot open: end the contact before "
+              "it");
       rows[i].slave = {0, i};
       rows[i].axes = body.surface.nodes[i].frame;
       rows[i].slides = {!holds(body, i, 0), !holds(body, i, 1)};
@@ -75,8 +75,8 @@ std::vector<ContactRow> rows_of_pairs(const std::vector<CondensedBody> &bodies,
               place_of(one, i));
       require(!holds(one, i, 2) || !holds(other, partner, 2), "reduce: the contact node at ",
               place_of(one, i),
-              " is fixed normal to the surface in both bodies, it must be able to open: the "
-              "contact must end before it");
+              " is fixed normal to the surface in both bodies, so that it cannot open: end the "
+              "contact before it");
       const bool held = holds(one, i, 0) || holds(one, i, 1),
                  its_held = holds(other, partner, 0) || holds(other, partner, 1);
       ContactRow &row = rows[i];
