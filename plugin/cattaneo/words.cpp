@@ -43,7 +43,7 @@ std::vector<std::string> split_unquoted(const std::string &where, const std::str
       {
          to = text.find(text[k], k + 1);
          require(to != std::string::npos, where, ": the quote ", text[k],
-                 " that begins a name has no end");
+                 " that begins a name is not closed");
       }
       pieces.back() += text.substr(k, to - k + 1);
       k = to;

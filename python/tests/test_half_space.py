@@ -128,7 +128,7 @@ def test_rigid_motions_are_handed_over():
     motions = np.kron(np.eye(3), np.ones((9, 1)))
     stated = cattaneo.ReducedProblem(*parts, rigid_motions=motions)
     assert stated.rigid_motions.shape == cattaneo.ReducedProblem(*parts).rigid_motions.shape == (27, 3)
-    with pytest.raises(cattaneo.InputError, match="it states 2 rigid motions, and the stiffness does not resist 3"):
+    with pytest.raises(cattaneo.InputError, match="it lists 2 rigid motions, must list all 3 that the stiffness does not resist"):
         cattaneo.ReducedProblem(*parts, rigid_motions=motions[:, :2])
 
 

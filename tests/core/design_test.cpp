@@ -241,7 +241,7 @@ TEST(Design, FrictionOfMostDamping)
    EXPECT_GE(0.1 + least.x[0], 0);
    EXPECT_LT(least.objective, 0.1 * least.objective_at_start) << least.message;
    expect_input_error([&] { design(problem, VectorXd::Constant(1, -0.5), settings); },
-                      "is negative");
+                      "negative");
 }
 
 // Under limits of curvature a profile is between the flat one and that of uniform pressure.

@@ -638,7 +638,7 @@ TEST(FrictionLaw, HoldsInAllDirectionsWithTorsion)
       [&] {
          set_friction_law(problem, FrictionLaw{points({{1, 0.3}}), points({{1, 0.4}})});
       },
-      "with two tangents slip has no sense");
+      "must be the same for both with two tangents");
 }
 
 // Random coupled nodes with torsion whose laws get steeper too, so that a piece's straight line
@@ -726,7 +726,7 @@ TEST(FrictionLaw, IsSavedAndRefusedWhereItIsNotKnown)
    expect_input_error([&] { set_friction_law(other, points({{1, 0.3}})); }, "no weights");
    const LoadHistory history = LoadHistory::through(problem, {{}, {{"load", 1}}});
    expect_input_error([&] { worn_out(problem, history, ContactState::virgin(problem)); },
-                      "wear knows Coulomb's law alone");
+                      "wear supports Coulomb's law only");
 }
 
 // A state is of the problem that it was solved in, and of no other of its size; one before any

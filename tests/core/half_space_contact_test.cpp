@@ -638,7 +638,8 @@ TEST(HalfSpaceContact, SaysWhatItCannotTake)
       expect_input_error([&] { bad.problem(gap); }, part);
    };
    EXPECT_NO_THROW(good.problem(gap));
-   expect_input_error([&] { good.problem(gap.head(8)); }, "8 gaps for 9 rectangles");
+   expect_input_error([&] { good.problem(gap.head(8)); },
+                      "8 gaps, must be 9, one for each rectangle");
    refused(
       [](HalfSpace &bad) {
          bad.other = Material{1, 0.3, PlaneState::stress};

@@ -454,7 +454,8 @@ TEST(HalfSpaceTriangles, SaysWhatItCannotTake)
       expect_input_error([&] { bad.problem(VectorXd::Zero(24)); }, part);
    };
    EXPECT_EQ(good.problem(VectorXd::Zero(24)).rim.size(), 12u); // one on each of twelve edges
-   expect_input_error([&] { good.problem(VectorXd::Zero(8)); }, "8 gaps for 24 triangles");
+   expect_input_error([&] { good.problem(VectorXd::Zero(8)); },
+                      "8 gaps, must be 24, one for each triangle");
    refused([](HalfSpace &bad) { bad.centres.resize(2, 2); }, "2 rectangles and 24 triangles");
    refused([](HalfSpace &bad) { bad.triangles(3, 1) = 19; }, "vertex 19, must be from 0 to 18");
    refused([](HalfSpace &bad) { bad.triangles(3, 1) = bad.triangles(3, 0); }, "has no area");

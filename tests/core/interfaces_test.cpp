@@ -959,7 +959,7 @@ TEST_F(Interfaces, RefuseWhatDoesNotFit)
          const std::vector<Interface> faces{between(1, two, 0, small.lines[0])};
          reduce({small.condensed("pad"), disc}, faces);
       },
-      "can move without resistance even where every contact node is closed");
+      "can move without resistance even if every contact node is closed");
 }
 
 /// A body that is cut in two along a line and tied there is the whole body.

@@ -137,7 +137,7 @@ TEST(LimitOfTheMesh, IsSaidByTheReport)
    Nodes closed(150);
    std::iota(closed.begin(), closed.end(), 20);
    const LimitReport part = limit_of(closed_contact(problem, closed).reduced);
-   EXPECT_NE(part.of_the_mesh.find("ends within its line"), std::string::npos)
+   EXPECT_NE(part.of_the_mesh.find("inside of its line"), std::string::npos)
       << part.of_the_mesh;
    EXPECT_NE(
       friction_limit(limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1)), 1)

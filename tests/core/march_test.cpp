@@ -1603,7 +1603,7 @@ TEST(LoadHistory, LoadsHaveNames)
       [&] {
          problem.multipliers({{"wait", 2}});
       },
-      "no load pattern 'wait'; there are: weight, a push");
+      "no load pattern 'wait', must be one of: weight, a push");
 }
 
 TEST(LoadHistory, RefusesBadInput)

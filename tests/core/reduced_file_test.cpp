@@ -204,16 +204,17 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
       content.replace(at, from.size(), to);
       expect_input_error([&] { read(content); }, said);
    };
-   refused("problem 2", "problem 4", "is not a 'cattaneo reduced problem 2' (or 1, or 3)");
+   refused("problem 2", "problem 4",
+           "with the value 'cattaneo reduced problem 2' (or its versions 1 or 3)");
    refused("problem 2", "problem 3", "lacks the key 'laws'");
    refused("\"held\": [1]", "\"held\": [1.0]", "a held row is 1.0, must be a whole number");
-   refused("\"held\": [1]", "\"held\": [1, 1]", "row 1 of A is said to be held twice");
+   refused("\"held\": [1]", "\"held\": [1, 1]", "row 1 of A is listed as held twice");
    refused("\"held\": [1]", "\"held\": [1], \"held\": [1]", "key 'held' is there twice");
    refused(", \"bodies\": [1, 0]", ", \"body\": 1, \"bodies\": [1, 0]",
            "a chain has the key 'body'");
    refused("\"displacement\": ", "\"dispalcement\": true, \"displacement\": ",
            "a load pattern has the key 'dispalcement'");
-   refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "a line that ends 'bend'");
+   refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "the end of a line is 'bend'");
    refused("\"held\": [1],", "", "held");
    refused("\"coupled\": true,", "", "coupled");
    refused("\"coupled\": true,", "\"coupled\": false,", "said to be uncoupled, but B is not");
@@ -230,31 +231,33 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
    refused("rigid_motions", "rigid motions", "rigid_motions");
    refused("\"held\": [1]", "\"held\": [2]", "held row 2 of A, must be from 0 to 1");
    refused("\"held\": [1]", "\"held\": [-1]", "held row -1 of A");
-   refused("\"held\": [1]", "\"held\": [0]", "row 0 of A is said to be held");
-   refused("[61, 0]", "[61, 1]", "row 1 of A is said to be held, but is coupled or loaded");
-   refused("[0.5, -0.5, 0, 0]", "[0.5, -0.5, 1, -1]", "row 1 of A is said to be held");
-   refused("[2, 0, 0, 3]", "[2, 0.1, 0.1, 3]", "row 1 of A is said to be held");
+   refused("\"held\": [1]", "\"held\": [0]", "row 0 of A is listed as held");
+   refused("[61, 0]", "[61, 1]",
+           "row 1 of A is listed as held, must be neither coupled nor loaded");
+   refused("[0.5, -0.5, 0, 0]", "[0.5, -0.5, 1, -1]", "row 1 of A is listed as held");
+   refused("[2, 0, 0, 3]", "[2, 0.1, 0.1, 3]", "row 1 of A is listed as held");
    refused("\"first\": 1", "\"first\": 0", "a chain of 1 nodes begins at node 0");
    refused("\"first\": 1, \"nodes\": 1", "\"first\": 1, \"nodes\": 0", "a chain of 0 nodes");
    refused("\"first\": 1, \"nodes\": 1", "\"first\": 1, \"nodes\": 2",
            "have 3 nodes, must have all 2");
    refused("\"rows\": 4, \"cols\": 1", "\"rows\": 2, \"cols\": 2",
            "rigid motions have 2 rows, must have 4");
-   refused("0.70710678118654757]", "0.70710679]", "the rigid motions are not orthonormal");
+   refused("0.70710678118654757]", "0.70710679]", "the rigid motions must be orthonormal");
    refused("[0, 0, 0.70710678118654757, 0.70710678118654757]", "[1, 0, 0, 0]",
-           "a rigid motion meets forces of");
+           "a rigid motion causes forces of");
    refused("[0, 0, 0.70710678118654757, 0.70710678118654757]", "[0, 0, 1, 0]",
-           "a rigid motion meets forces of");
+           "a rigid motion causes forces of");
    // Normal forces against it, tangential ones: of B alone, which is 0.5 beside C's 7.
-   refused("[0.5, -0.5, 0, 0]", "[0.5, -0.4, 0, 0]", "a rigid motion meets forces of");
+   refused("[0.5, -0.5, 0, 0]", "[0.5, -0.4, 0, 0]", "a rigid motion causes forces of");
    refused("[11, 12]", "[11, 12, 13]", "3 entries for a matrix of 2×1");
    refused("[0.125, -0.25]", "[0.125, null]", "is not a reduced problem");
-   refused("[0.3, 0.4]", "[0.3, -0.5]", "friction coefficient -0.5 at node 1 is negative");
+   refused("[0.3, 0.4]", "[0.3, -0.5]",
+           "friction coefficient -0.5 at node 1, must not be negative");
    refused("[7, -7, -7, 7]", "[7, -7, -7, 0]", "diagonal of C is 0 at row 1");
    refused("[7, -7, -7, 7]", "[7, -7, -7.0001, 7]", "C is not symmetric");
    refused("\"rows\": 2, \"cols\": 2, \"values\": [1, 4, -4, 9]",
            "\"rows\": 1, \"cols\": 1, \"values\": [1]",
-           "must be square of the number of load patterns 2");
+           "must have a row and a column for each of the 2 load patterns");
    const auto one_less = [&](const std::string &key, int columns, const std::string &values,
                              const std::string &fewer)
    {
@@ -310,7 +313,8 @@ TEST(ReducedFile, RefusesAProblemThatKeepsARigidMotionToItself)
    EXPECT_EQ(load_reduced_problem(file).rigid_motions.cols(), 2);
    const std::string whole = content(file);
    problem.rigid_motions = problem.rigid_motions.leftCols(1).eval();
-   const std::string says = "it states 1 rigid motions, and the stiffness does not resist 2";
+   const std::string says =
+      "it lists 1 rigid motions, must list all 2 that the stiffness does not resist";
    expect_input_error([&] { save(problem, file); }, says);
    EXPECT_EQ(content(file), whole);
    // As another program may have written it.

@@ -135,13 +135,14 @@ TEST(ReducedProblem, RigidMotionsAreSoughtOrHandedOver)
       complete(problem, motions);
       EXPECT_LT((motions - Z * (Z.transpose() * motions)).norm(), 1e-12);
       EXPECT_NO_THROW(problem.validate());
-      expect_input_error([&] { complete(problem, motions.leftCols(1)); },
-                         "it states 1 rigid motions, and the stiffness does not resist 2");
+      expect_input_error(
+         [&] { complete(problem, motions.leftCols(1)); },
+         "it lists 1 rigid motions, must list all 2 that the stiffness does not resist");
       expect_input_error([&] { complete(problem, motions.topRows(n)); }, "must have");
       motions.col(1) = 2 * motions.col(0);
-      expect_input_error([&] { complete(problem, motions); }, "not independent");
+      expect_input_error([&] { complete(problem, motions); }, "linearly independent");
       motions.col(1) = Eigen::VectorXd::Unit(2 * n, 0);
-      expect_input_error([&] { complete(problem, motions); }, "a rigid motion meets forces");
+      expect_input_error([&] { complete(problem, motions); }, "a rigid motion causes forces");
    }
 }
 
@@ -171,7 +172,7 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
            [](auto &p) { p.K = MatrixXd::Identity(4, 6); });
    refused("3 tangential components", [](auto &p)
            { p.set_stiffness(MatrixXd::Identity(6, 6), MatrixXd::Zero(2, 6), p.C()); });
-   refused("it has B, but not its transpose", [](auto &p) { p.B()(0, 1) = 0; });
+   refused("must be the transpose of B", [](auto &p) { p.B()(0, 1) = 0; });
    refused("said to be uncoupled, but B is not zero", [](auto &p) { p.coupled = false; });
    refused("said to be coupled, but B is zero",
            [](auto &p)
@@ -211,7 +212,7 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
       with(sound, alike ? 1 : -1);
       EXPECT_NO_THROW(sound.validate());
    }
-   refused("the stiffness is 4×4 for the 3 nodes that have a gap",
+   refused("the stiffness is 4×4, must have 1, 2 or 3 rows and columns for each of the 3 nodes",
            [](auto &p) { p.gap = VectorXd::Zero(3); });
    refused("weights has 1 entries", [](auto &p) { p.weights = VectorXd::Ones(1); });
    refused("weight 0 of node 1, must be positive",
@@ -229,8 +230,9 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
    }
    catch (const InputError &error)
    {
-      EXPECT_STREQ(error.what(),
-                   "reduced problem: no load pattern 'twist'; there are: press, pull");
+      EXPECT_STREQ(
+         error.what(),
+         "reduced problem: there is no load pattern 'twist', must be one of: press, pull");
    }
    EXPECT_THROW(problem.clamped_forces(VectorXd::Ones(1)), InputError);
    cattaneo::set_friction(problem, 0);

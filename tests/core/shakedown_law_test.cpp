@@ -310,12 +310,13 @@ TEST(ShakedownOfALaw, RefusesWhatIsNotKnownOfIt)
    set_friction_law(problem, points({{1, 0.3}, {2, 0.4}}));
    const LoadCycle cycle = cycle_of(problem, 1, -1);
    LimitProblem of = limit_problem(problem, cycle);
-   expect_input_error([&] { friction_limit(of, 1); }, "Coulomb's law alone");
-   expect_input_error([&] { method1_friction(problem, cycle, 1); }, "Coulomb's law alone");
-   expect_input_error([&] { method1_load(problem, cycle); }, "Coulomb's law alone");
-   expect_input_error([&] { method2_friction(of, 1); }, "Coulomb's law alone");
+   expect_input_error([&] { friction_limit(of, 1); }, "supports Coulomb's law only");
+   expect_input_error([&] { method1_friction(problem, cycle, 1); },
+                      "supports Coulomb's law only");
+   expect_input_error([&] { method1_load(problem, cycle); }, "supports Coulomb's law only");
+   expect_input_error([&] { method2_friction(of, 1); }, "supports Coulomb's law only");
    const LimitReport limit = load_limit(of);
-   expect_input_error([&] { load_limit_gradient(of, limit); }, "Coulomb's law alone");
+   expect_input_error([&] { load_limit_gradient(of, limit); }, "supports Coulomb's law only");
    of.residual.uncoupled = false;
    EXPECT_EQ(lower_limit(of, limit).kind, LowerLimitKind::none);
    set_friction(problem, 0);

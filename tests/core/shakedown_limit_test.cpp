@@ -75,8 +75,8 @@ TEST(LoadLimit, SaysOfWhichStartsItSpeaks)
    EXPECT_TRUE(unasked.coupled);
    EXPECT_TRUE(std::isnan(unasked.every_start));
    EXPECT_EQ(unasked.counters.limit_solves, 1);
-   says(unasked, "below the limit some start shakes down, and not every start has to");
-   says(unasked, "was not asked for: lower_limit()");
+   says(unasked, "below the limit some start shakes down, but not every start has to");
+   says(unasked, "was not computed: call lower_limit()");
    LimitSettings settings;
    settings.every_start = true;
    const LimitReport asked = load_limit(limit, settings);

@@ -428,7 +428,8 @@ TEST(LowerLimit, SaysWhenItKnowsNothing)
    const LowerLimitReport mutually = find(mutual(2.2, true));
    EXPECT_EQ(mutually.kind, LowerLimitKind::none) << mutually.value;
    EXPECT_EQ(mutually.value, 0);
-   EXPECT_NE(mutually.message.find("coupling times friction is too large"), std::string::npos)
+   EXPECT_NE(mutually.message.find("the product of coupling and friction is too large"),
+             std::string::npos)
       << mutually.message;
    // Only node 1 feels node 0: 1 - f b = -0.1 of its pressure may be left.
    const LowerLimitReport emptied = find(mutual(2.2, false));

@@ -586,7 +586,7 @@ TEST(Wear, BadInputIsNamed)
    expect_input_error([&] { wear(problem, law, open, 1, state); }, "no cycle");
    expect_input_error([&] { worn_out(problem, open, state.contact); }, "no cycle");
    state.cycles = 2;
-   expect_input_error([&] { run(1); }, "the state has seen 2");
+   expect_input_error([&] { run(1); }, "must be at least 2");
    state.cycles = 0;
    run(1);
    LoadHistory other = pad.history;

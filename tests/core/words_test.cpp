@@ -89,7 +89,7 @@ TEST(HistoryStatements, NamesInQuotes)
    problem.patterns[1].name = "d'";
    EXPECT_EQ(load_history("history", "d'=0; d'=3", problem).multipliers(1, 1), 3);
    expect_input_error([&] { load_history("--history", "d'=0; 'bolt 1=1", problem); },
-                      "the quote ' that begins a name has no end");
+                      "the quote ' that begins a name is not closed");
    expect_input_error([&] { load_history("--history", "d'=0; 'bolt 1' 1", problem); },
                       "''bolt 1'', must be PATTERN=number");
 }

@@ -123,7 +123,7 @@ def refused():
                          ("method=newton", "'newton' is not one of"), ("history.4.Q=1", "has 0 entries"), ("friction.1=2", "has no entries"),
                          ("json=a b", "there is no option 'json'"), ("sweep=a", "there is no option 'sweep'"),
                          ("friction=0.1; friction=0.2", "'friction' is there twice"),
-                         ("history.1.'P=1", "has no end")):
+                         ("history.1.'P=1", "is not closed")):
         begun = time.monotonic()
         shown = run("march", *hertz, sweep, code=1)
         error = shown[shown.index("error:"):]

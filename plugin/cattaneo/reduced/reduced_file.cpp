@@ -32,7 +32,7 @@ std::array<LineEnd, 2> ends_from_json(const nlohmann::json &j)
    {
       const auto word = j.at(k).get<std::string>();
       const auto found = std::find(end_names.begin(), end_names.end(), word);
-      require(found != end_names.end(), "reduced problem: a line that ends '", word,
+      require(found != end_names.end(), "reduced problem: the end of a line is '", word,
               "', must be unknown, smooth, corner, axis or open");
       ends[k] = static_cast<LineEnd>(found - end_names.begin());
    }
@@ -42,7 +42,7 @@ std::array<LineEnd, 2> ends_from_json(const nlohmann::json &j)
 const std::string &writable(const char *what, const std::string &name)
 {
    require(is_utf8(name), "reduced problem: the name of ", what, " '", name,
-           "' is not UTF-8, must be for a file");
+           "' must be UTF-8 to be written to a file");
    return name;
 }
 
@@ -187,7 +187,8 @@ ReducedProblem load_reduced_problem(const std::string &file)
          parsed(read_whole(file, "reduced problem: "), "reduced problem: file '" + file + "'");
       const bool first = j.at("format") == format_1, with_laws = j.at("format") == format_laws;
       require(first || with_laws || j.at("format") == format_name, "reduced problem: file '",
-              file, "' is not a '", format_name, "' (or 1, or 3)");
+              file, "' must have the key 'format' with the value '", format_name,
+              "' (or its versions 1 or 3)");
       std::vector<std::string> keys = {"format",   "A",        "B",        "C",
                                        "H",        "gap",      "friction", "weights",
                                        "patterns", "position", "dofs",     "arc_length"};

@@ -26,7 +26,7 @@ void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::Matrix
    const Eigen::Index m = A.rows(), n = C.rows();
    require(A.cols() == m && B.rows() == n && B.cols() == m && C.cols() == n,
            "reduced problem: sizes of A (", m, "×", A.cols(), "), B (", B.rows(), "×", B.cols(),
-           ") and C (", n, "×", C.cols(), ") do not fit");
+           ") and C (", n, "×", C.cols(), ") do not fit, must be m × m, n × m and n × n");
    K.resize(m + n, m + n);
    K << A, B.transpose(), B, C;
    if (gap.size() != n) { gap = Eigen::VectorXd::Zero(n); }
@@ -54,8 +54,8 @@ int ReducedProblem::pattern(const std::string &name) const
 {
    const std::vector<std::string> known = load_names();
    const auto found = std::find(known.begin(), known.end(), name);
-   require(found != known.end(), "reduced problem: no load pattern '", name,
-           "'; there are: ", listed(known));
+   require(found != known.end(), "reduced problem: there is no load pattern '", name,
+           "', must be one of: ", listed(known));
    return static_cast<int>(found - known.begin());
 }
 
@@ -69,7 +69,8 @@ Eigen::VectorXd ReducedProblem::multipliers(const NamedLoads &loads) const
 Eigen::VectorXd ReducedProblem::clamped_forces(const Eigen::VectorXd &multipliers) const
 {
    require(multipliers.size() == static_cast<Eigen::Index>(patterns.size()),
-           "reduced problem: ", multipliers.size(), " load multipliers for ", patterns.size(),
+           "reduced problem: ", multipliers.size(),
+           " load multipliers, must be one for each of the ", patterns.size(),
            " load patterns");
    const Eigen::Index m = slips();
    Eigen::VectorXd f = Eigen::VectorXd::Zero(m + nodes());
@@ -132,8 +133,8 @@ void check_motions(const ReducedProblem &problem)
    if (Z.cols() == 0) { return; }
    const double resisted =
       product(problem.K, Z).cwiseAbs().maxCoeff() / problem.K.cwiseAbs().maxCoeff();
-   require(resisted <= 1e-11, "reduced problem: a rigid motion meets forces of ", resisted,
-           " of the stiffness, must meet none (1e-11)");
+   require(resisted <= 1e-11, "reduced problem: a rigid motion causes forces of ", resisted,
+           " relative to the stiffness, must be below 1e-11");
 }
 
 /// What the upper half knew: chains, rigid motions, held components.
@@ -154,7 +155,7 @@ void check_facts(const ReducedProblem &problem)
       const auto known = problem.dofs.size() ? problem.dofs.cols() / 2 : own + other + 2;
       require(own >= 0 && other >= -1 && std::max(own, other) < known,
               "reduced problem: a chain of nodes of body ", own, " that faces body ", other,
-              ", must be bodies counted from 0, or -1 for a rigid obstacle that is faced");
+              ", bodies must be counted from 0, with -1 for a rigid obstacle that is faced");
    }
    require(problem.chains.empty() || next == n, "reduced problem: the chains have ", next,
            " nodes, must have all ", n);
@@ -172,7 +173,8 @@ void check_facts(const ReducedProblem &problem)
    for (Eigen::Index row : problem.held)
    {
       require(std::count(problem.held.begin(), problem.held.end(), row) == 1,
-              "reduced problem: row ", row, " of A is said to be held twice");
+              "reduced problem: row ", row,
+              " of A is listed as held twice, must be listed once");
       require(row >= 0 && row < m, "reduced problem: held row ", row,
               " of A, must be from 0 to ", m - 1);
       bool alone = (problem.A().row(row).array() != 0).count() == 1 &&
@@ -183,15 +185,15 @@ void check_facts(const ReducedProblem &problem)
          alone = alone && pattern.q[row] == 0;
       }
       require(alone, "reduced problem: row ", row,
-              " of A is said to be held, but is coupled or loaded");
+              " of A is listed as held, must be neither coupled nor loaded");
    }
    const Eigen::MatrixXd &Z = problem.rigid_motions;
    require(Z.rows() == m + n, "reduced problem: rigid motions have ", Z.rows(),
            " rows, must have ", m + n,
-           " (and no columns if the bodies are held; complete() seeks them)");
+           " (and no columns if supports hold the bodies; complete() finds them)");
    require(Z.allFinite(), "reduced problem: a rigid motion has an entry that is not finite");
    require(transposed_product(Z, Z).isIdentity(1e-9),
-           "reduced problem: the rigid motions are not orthonormal");
+           "reduced problem: the rigid motions must be orthonormal columns");
    check_motions(problem);
 }
 
@@ -212,21 +214,23 @@ void check_law(const std::string &where, const FrictionLaw &law, Eigen::Index co
         {std::pair(&law.forward, "forward"), std::pair(&law.backward, "backward")})
    {
       require(points->rows() > 0 && points->allFinite(), where, " ", way,
-              " has no points, or one that is not finite");
+              " must have at least one point, and finite points only");
       Eigen::RowVector2d before(0, 0);
       for (const Eigen::RowVector2d &point : points->rowwise())
       {
          require(point[0] > before[0] && point[1] >= before[1], where, " ", way, " goes from ",
                  Eigen::Vector2d(before.transpose()), " to ",
                  Eigen::Vector2d(point.transpose()),
-                 ", (pressure, strength) must grow from (0, 0), the strength may stay");
+                 ", (pressure, strength): the pressure must increase from 0, and the strength "
+                 "must not decrease");
          before = point;
       }
    }
    require(components < 2 ||
               (law.forward.rows() == law.backward.rows() && law.forward == law.backward),
            where,
-           " is another one forward than backward, but with two tangents slip has no sense");
+           " differs between forward and backward slip, must be the same for both with two "
+           "tangents, where slip has no sign");
 }
 
 void check_laws_of_friction(const ReducedProblem &problem)
@@ -243,8 +247,8 @@ void check_laws_of_friction(const ReducedProblem &problem)
       const double steepest = laws[i].steepest(),
                    said = problem.friction[static_cast<Eigen::Index>(i)];
       require(std::abs(steepest - said) <= 1e-12 * steepest, where, " has the steepest slope ",
-              steepest, ", the friction there is said to be ", said,
-              ": set_friction_law() sets both, set_friction() takes the laws away");
+              steepest, ", must be equal to `friction` there, ", said,
+              ": set_friction_law() sets both, set_friction() removes the laws");
    }
 }
 
@@ -274,8 +278,8 @@ void ReducedProblem::validate() const
    const Eigen::Index n = nodes(), m = slips();
    require(n > 0, "reduced problem: there are no contact nodes");
    require(K.cols() == K.rows() && m >= 0 && m % n == 0, "reduced problem: the stiffness is ",
-           K.rows(), "×", K.cols(), " for the ", n,
-           " nodes that have a gap, must have 1, 2 or 3 rows and columns for each");
+           K.rows(), "×", K.cols(), ", must have 1, 2 or 3 rows and columns for each of the ",
+           n, " nodes");
    require(m <= 2 * n, "reduced problem: ", m / n,
            " tangential components a node, must be 0, 1 or 2");
    require(K.allFinite(), "reduced problem: the stiffness has an entry that is not finite");
@@ -283,11 +287,12 @@ void ReducedProblem::validate() const
    check_symmetric("C", C());
    check_diagonal(*this);
    require(largest_skew(K.topRightCorner(m, n), B()) == 0,
-           "reduced problem: the stiffness is not symmetric: it has B, but not its transpose "
-           "(complete() writes it)");
-   require(coupled == !B().isZero(0), "reduced problem: said to be ",
-           coupled ? "coupled, but B is" : "uncoupled, but B is not",
-           " zero (complete() sets it)");
+           "reduced problem: the stiffness is not symmetric: its upper block must be the "
+           "transpose of B "
+           "(complete() copies it)");
+   require(coupled == !B().isZero(0), "reduced problem: `coupled` is ",
+           coupled ? "true, but B is" : "false, but B is not",
+           " zero (complete() sets `coupled`)");
    std::set<std::string> names;
    for (const LoadPattern &pattern : patterns)
    {
@@ -303,13 +308,13 @@ void ReducedProblem::validate() const
    for (Eigen::Index i = 0; i < n; ++i)
    {
       require(friction[i] >= 0, "reduced problem: friction coefficient ", friction[i],
-              " at node ", i, " is negative");
+              " at node ", i, ", must not be negative");
    }
    check_laws_of_friction(*this);
    const auto size = static_cast<Eigen::Index>(patterns.size());
    require(H.rows() == 0 || (H.rows() == size && H.cols() == size), "reduced problem: H is ",
-           H.rows(), "×", H.cols(), ", must be square of the number of load patterns ", size,
-           ", or empty if it is not known");
+           H.rows(), "×", H.cols(), ", must have a row and a column for each of the ", size,
+           " load patterns, or be empty if it is not known");
    require(H.allFinite(), "reduced problem: H has an entry that is not finite");
    for (Eigen::Index k = 0; k < H.rows(); ++k)
    {
@@ -393,7 +398,7 @@ void complete(ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions)
       constexpr double independent = 1e-10;
       require(basis.R.diagonal().cwiseAbs().minCoeff() > independent &&
                  basis.R.rows() == unit.cols(),
-              "reduced problem: the rigid motions are not independent of each other");
+              "reduced problem: the rigid motions must be linearly independent");
       problem.rigid_motions = basis.Q;
    }
    check_motions(problem);
@@ -404,9 +409,9 @@ void require_all_motions_stated(const ReducedProblem &problem)
 {
    if (resists_all_but(problem.K, problem.rigid_motions)) { return; }
    const Eigen::Index stated = problem.rigid_motions.cols(), all = null_space(problem.K).cols();
-   require(all <= stated, "reduced problem: it states ", stated,
-           " rigid motions, and the stiffness does not resist ", all,
-           ", all of them must be stated (complete() seeks them)");
+   require(all <= stated, "reduced problem: it lists ", stated,
+           " rigid motions, must list all ", all,
+           " that the stiffness does not resist (complete() finds them)");
 }
 
 void join_coupling(ReducedProblem &problem)
@@ -463,7 +468,7 @@ void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
    const Eigen::Index n = problem.nodes();
    check_law("law of friction:", law, problem.components());
    require(problem.weights.size() == n,
-           "law of friction: the problem has no weights of its nodes, and so no pressures");
+           "law of friction: the problem has no weights of its nodes, which pressures need");
    std::vector<Eigen::Index> chosen = nodes;
    for (Eigen::Index i = 0; nodes.empty() && i < n; ++i) { chosen.push_back(i); }
    if (problem.laws.empty())
@@ -491,7 +496,7 @@ void set_friction_law(ReducedProblem &problem, const Eigen::MatrixX2d &points,
 void require_coulomb(const ReducedProblem &problem, const char *who)
 {
    require(problem.laws.empty(), who,
-           " knows Coulomb's law alone, and the reduced problem has another law of friction");
+           " supports Coulomb's law only, but the reduced problem has another law of friction");
 }
 
 void set_friction(ReducedProblem &problem, double coefficient)

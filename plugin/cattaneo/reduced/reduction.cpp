@@ -73,7 +73,7 @@ Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,
 {
    const Eigen::Index n = problem.nodes();
    require(b >= 0 && b < static_cast<int>(torsion.size()), "twist: body ", b,
-           ", the reduction has ", torsion.size(), " that twist (counted from 0)");
+           ", must be below ", torsion.size(), ", the number of bodies that twist");
    require(v.size() == 2 * n, "twist: ", v.size(), " tangential displacements, must be ",
            2 * n);
    require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),

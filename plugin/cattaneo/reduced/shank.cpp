@@ -20,15 +20,15 @@ void Reduction::add_shank(const std::string &pattern, double stiffness)
    const std::string where = "shank '" + pattern + "'";
    const auto k = static_cast<Index>(problem.pattern(pattern));
    require(problem.patterns[k].control == Control::force, where,
-           ": the load of that name prescribes displacements, must be forces");
+           ": the load with this name prescribes displacements, must prescribe forces");
    require(stiffness > 0 && std::isfinite(stiffness), where, ": its stiffness is ", stiffness,
            ", must be positive and finite");
    require(problem.knows_loads(), where,
            ": the response H of the reduction's loads is not "
-           "known, must be");
+           "known, which shanks need");
    require(obstacle_.size() == 0 && free_motions_.size() == 0, where,
-           ": the obstacle already moves, shanks must be added "
-           "before");
+           ": the obstacle moves already, shanks must be added "
+           "before add_obstacle_motion()");
    const Index m = problem.slips(), n = problem.nodes();
    VectorXd F(m + n);
    F << problem.patterns[k].q, problem.patterns[k].p;

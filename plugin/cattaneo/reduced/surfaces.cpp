@@ -59,15 +59,15 @@ std::vector<ContactRow> rows_of_pairs(const std::vector<CondensedBody> &bodies,
    const auto n = static_cast<int>(one.nodes());
    require(other.nodes() == n && static_cast<int>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
-           "reduce: contact surfaces of ", n, " and ", other.nodes(),
-           " nodes with a pairing of ", pairing.partner.size(), ", must be as many");
+           "reduce: the contact surfaces have ", n, " and ", other.nodes(),
+           " nodes and the pairing ", pairing.partner.size(), ", must be equally many");
    std::vector<bool> taken(n, false);
    std::vector<ContactRow> rows(n);
    for (int i = 0; i < n; ++i)
    {
       const int partner = pairing.partner[i];
       require(partner >= 0 && partner < n && !taken[partner], "reduce: partner ", partner,
-              " in the pairing, must be each of 0 to ", n - 1, " once");
+              " in the pairing, must have each number from 0 to ", n - 1, " once");
       taken[partner] = true;
       const SurfaceNode &own = one.surface.nodes[i], &its = other.surface.nodes[partner];
       require(own.normal().dot(its.normal()) < 0,
@@ -157,10 +157,10 @@ Reduction reduce_surfaces(std::vector<CondensedBody> bodies, std::vector<Contact
 Reduction reduce(CondensedBody body, const VectorXd &gap)
 {
    require(body.line.formulation == Formulation::space,
-           "reduce: gaps of each node are for a body in space, the body is ",
-           name(body.line.formulation), ", whose gap is a function of the place");
-   require(gap.size() == body.nodes(), "reduce: ", gap.size(), " gaps for ", body.nodes(),
-           " contact nodes, must be as many");
+           "reduce: gaps are given for each node, but the body is ",
+           name(body.line.formulation), ", where the gap must be a function of the place");
+   require(gap.size() == body.nodes(), "reduce: ", gap.size(),
+           " gaps, must be one for each of the ", body.nodes(), " contact nodes");
    std::vector<CondensedBody> bodies;
    bodies.push_back(std::move(body));
    std::vector<ContactRow> rows = rows_on_obstacle(bodies[0]);

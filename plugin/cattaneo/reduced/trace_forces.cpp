@@ -61,7 +61,7 @@ MatrixXd Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
 VectorXd Reduction::contact_torques(int b, const VectorXd &q, const VectorXd &tied) const
 {
    require(b >= 0 && b < static_cast<int>(torsion.size()), "contact torques: body ", b,
-           ", the reduction has ", torsion.size(), " that twist (counted from 0)");
+           ", must be below ", torsion.size(), ", the number of bodies that twist");
    const Index n = problem.nodes();
    const auto ties = static_cast<Index>(rows_->tied.size());
    require(q.size() == n && (ties == 0 || tied.size() == ties), "contact torques: ", q.size(),

@@ -201,8 +201,8 @@ void balance(const MatrixXd &motions, MatrixXd &forces, const VectorXd &scale,
       const double load = push.col(k).norm();
       require(load <= 1e-9 * scale[k], "reduce: load pattern '", patterns[k].name, "' pushes ",
               bodies,
-              " in a common rigid motion that nothing resists: a support must hold one of them "
-              "against it, or the forces of the load must balance each other");
+              " in a common rigid motion that nothing resists: support one of them "
+              "against this motion, or let the forces of the load balance each other");
    }
    add_product(forces, motions, push, -1);
 }
@@ -379,8 +379,8 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       m >= moving.cols() && (moving.cols() == 0 || seen.minCoeff() > 1e-13 * seen.maxCoeff());
    require(all_seen && shared->minimum.compute(std::move(K.yy), K.yu, Yu, Yy),
            "reduce: ", called(bodies, free_bodies(bodies)),
-           " can move without resistance even where every contact node is closed and sticks: "
-           "more nodes must touch, or a body be supported");
+           " can move without resistance even if every contact node is closed and sticks: "
+           "give the contact more nodes, or support a body");
 
    // With K = L Lᵀ and W = L⁻¹ V the minimum takes WᵀW from the energy of {u; λ}.
    const auto of_u = K.yu.leftCols(m), of_loads = K.yu.rightCols(count);

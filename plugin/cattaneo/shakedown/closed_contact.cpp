@@ -13,12 +13,13 @@ ClosedContact closed_contact(const ReducedProblem &problem,
 {
    problem.validate();
    const Eigen::Index n = problem.nodes(), c = problem.components();
-   require(!closed.empty(), "closed contact: no node is closed");
+   require(!closed.empty(), "closed contact: no node is closed, must be at least one");
    std::vector<bool> is_closed(n, false);
    for (const Eigen::Index i : closed)
    {
-      require(i >= 0 && i < n, "closed contact: node ", i, " is not one of ", n, " nodes");
-      require(!is_closed[i], "closed contact: node ", i, " is named twice");
+      require(i >= 0 && i < n, "closed contact: node ", i, ", must be from 0 to ", n - 1);
+      require(!is_closed[i], "closed contact: node ", i,
+              " is listed twice, must be listed once");
       require(problem.gap[i] == 0, "closed contact: node ", i, " has the gap ", problem.gap[i],
               ", must be zero (absorb_gap makes it a load pattern)");
       is_closed[i] = true;
@@ -65,7 +66,8 @@ ClosedContact closed_contact(const ReducedProblem &problem,
       DenseCholesky factor;
       // If the open nodes can move freely, their gaps are not determined and cannot be checked.
       require(factor.compute(K(freed, freed)), "closed contact: the motion of the ", n_open,
-              " open nodes is not determined: their stiffness is not positive definite");
+              " open nodes is not determined, because their stiffness is not positive "
+              "definite: close more nodes, or support the bodies");
       by_kept = -factor.solved(K(freed, kept));
       by_load = -factor.solved(forces(freed, Eigen::all));
       S += K(kept, freed) * by_kept;

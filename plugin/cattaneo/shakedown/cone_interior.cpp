@@ -438,7 +438,7 @@ ConeSolution InteriorPoints::find()
    }
    if (solution.outcome == ConeOutcome::failed)
    {
-      solution.message = "the interior points ended before the optimum";
+      solution.message = "the method of interior points stopped before the optimum";
    }
    solution.theta = x_[0] * programme_.theta_scale;
    solution.r = x_.tail(m_).cwiseProduct(programme_.force_scale.replicate(2, 1));

@@ -40,8 +40,8 @@ ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &l
       const FrictionLaw &law = problem.laws[i];
       require(
          law.concave(), "shakedown: the law of friction of node ", i,
-         " has a piece that is steeper than the one before it, must be concave: limits are "
-         "known of no other");
+         " has a piece that is steeper than the one before it, must be concave: limits can "
+         "be computed for no other law");
       most = std::max({most, law.forward.rows(), law.backward.rows()});
    }
    const Eigen::Index columns = most * vertices;

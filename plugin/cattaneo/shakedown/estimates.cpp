@@ -154,7 +154,8 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    estimate.exists = smallest <= 0 && largest >= 0;
    if (!estimate.exists)
    {
-      estimate.message = "no residual shear that method 1 allows has a zero resultant";
+      estimate.message =
+         "every residual shear that method 1 allows has a resultant, must be zero";
       return estimate;
    }
 

@@ -176,9 +176,9 @@ LimitReport FrictionLimit::conclude(const std::string &message)
    }
    if (report_.lower >= settings_.largest_friction)
    {
-      return ended(LimitStatus::no_solution,
-                   "no slip keeps the contact stuck and closed with any friction coefficient "
-                   "searched (proven by the mechanism)");
+      return ended(LimitStatus::no_solution, "no residual slip keeps the contact stuck and "
+                                             "closed with any friction coefficient in the "
+                                             "searched range (proven by the mechanism)");
    }
    if (!std::isfinite(report_.upper))
    {
@@ -234,14 +234,14 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    LimitReport report = FrictionLimit(problem, load_factor, settings).find();
    report.coupled = !problem.residual.uncoupled;
    if (!report.proven()) { return report; }
-   report.starts =
-      report.coupled
-         ? "coupled (degree " + nine_digits(problem.coupling) +
-              "): with more friction some start shakes down, and not every start has to, so "
-              "that a march from rest may slip for ever; lower_limit() has the load below "
-              "which "
-              "every start shakes down, for a given friction"
-         : "uncoupled: every start shakes down with more friction (proven)";
+   report.starts = report.coupled
+                      ? "coupled (degree " + nine_digits(problem.coupling) +
+                           "): with more friction some start shakes down, but not every start "
+                           "has to, and a march "
+                           "from rest may slip for ever; for a given friction lower_limit() "
+                           "computes the load below "
+                           "which every start shakes down"
+                      : "uncoupled: every start shakes down with more friction (proven)";
    report.of_the_mesh = mesh_statement(
       problem.reduced, stuck_forces(problem.reduced, problem.cycle), report, load_factor, true);
    return report;

@@ -50,7 +50,7 @@ Index singular_end(const ReducedProblem &problem, const StuckForces &stuck)
 
 std::string figure_of_the_mesh(bool friction)
 {
-   return std::string("; the figure ") +
+   return std::string("; this limit ") +
           (friction ? "rises as the spacing of the nodes falls"
                     : "falls with the spacing of the nodes") +
           " and is no limit of the bodies";
@@ -64,8 +64,9 @@ std::string mesh_statement(const ReducedProblem &problem, const StuckForces &stu
    const Index end = singular_end(problem, stuck);
    if (end >= 0)
    {
-      return "the contact ends within its line, at the arc length " + nine_digits(arc[end]) +
-             ": there the pressure falls to zero and the stuck shear is singular" +
+      return "the contact ends at the arc length " + nine_digits(arc[end]) +
+             ", inside of its line: there the pressure falls to zero and the stuck shear is "
+             "singular" +
              figure_of_the_mesh(friction);
    }
    const double share = share_of_ends(problem, stuck, limit, load_factor);

@@ -15,8 +15,8 @@ LimitSearch::LimitSearch(const ReducedProblem &reduced, const ResidualForces &re
    reduced.validate();
    const Eigen::Index m = reduced.slips();
    require(residual.flexibility.rows() == m && residual.transfer.rows() == reduced.nodes(),
-           "shakedown: the residual forces do not belong to the reduced problem: ",
-           residual.flexibility.rows(), " tangential unknowns instead of ", m);
+           "shakedown: the residual forces belong to another problem: they have ",
+           residual.flexibility.rows(), " tangential unknowns, must have ", m);
 }
 
 LimitReport LimitSearch::ended(LimitStatus status, const std::string &message)

@@ -38,10 +38,10 @@ void LoadCycle::validate(const ReducedProblem &problem) const
 {
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
    require(constant.size() == patterns, "load cycle: ", constant.size(),
-           " constant multipliers for ", patterns, " load patterns");
+           " constant multipliers, must be one for each of the ", patterns, " load patterns");
    require(varying.rows() == patterns, "load cycle: ", varying.rows(),
            " varying multipliers for ", patterns, " load patterns");
-   require(varying.cols() > 0, "load cycle: there is no vertex");
+   require(varying.cols() > 0, "load cycle: there is no vertex, must be at least one");
    require(constant.allFinite() && varying.allFinite(),
            "load cycle: a multiplier is not finite");
 }

@@ -17,8 +17,9 @@ namespace
 /// Share of a node's typical force that rounding can change in a sum over all nodes.
 constexpr double round_off = 1e-12;
 
-constexpr const char *never_held = "no slip keeps the contact stuck and closed under the "
-                                   "constant loads alone (proven by the mechanism)";
+constexpr const char *never_held =
+   "no residual slip keeps the contact stuck and closed even under the "
+   "constant loads alone (proven by the mechanism)";
 
 /// The state furthest from all cones.
 struct Clearance
@@ -274,7 +275,8 @@ std::optional<LimitReport> LoadLimit::try_ray()
    {
       report_.slip = first_slip_;
       return unlimited(ray.slip, infinity,
-                       "a slip in proportion to the load holds any load (proven)");
+                       "there is no upper limit: for any load factor a residual slip in "
+                       "proportion to it keeps the contact stuck (proven)");
    }
    lower_the_upper(std::move(ray.solution.mechanism));
    if (closed()) { return finish(LimitStatus::certified, ""); }
@@ -301,7 +303,8 @@ std::optional<LimitReport> LoadLimit::try_ray()
    report_.slip = first_slip_;
    char text[150];
    std::snprintf(text, sizeof text,
-                 "a slip in proportion to the load holds any load to round-off; proven up to "
+                 "within round-off there is no upper limit: a residual slip in proportion to "
+                 "the load factor keeps the contact stuck; proven up to "
                  "%.0e",
                  factor);
    return unlimited(ray.slip, factor, text);
@@ -324,8 +327,8 @@ LimitReport LoadLimit::find()
    if (held_ && (nothing_varies_ || worst_violation(alone_, reduced_, 0, no_slip_) <= 0))
    {
       return unlimited(no_slip_, infinity,
-                       nothing_varies_ ? "no load varies: there is nothing to limit"
-                                       : "every varying load presses more than it shears");
+                       nothing_varies_ ? "no load varies, so there is nothing to limit"
+                                       : "every varying load adds more friction than shear");
    }
    start_from_settings();
    report_.lower = held_ ? 0 : -infinity;
@@ -374,7 +377,7 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
    if (report.status == LimitStatus::unlimited)
    {
       report.starts = report.coupled
-                         ? "coupled: some start shakes down under any load, and not "
+                         ? "coupled: under any load some start shakes down, but not "
                            "every start has to"
                          : "uncoupled: every start shakes down under any load";
    }

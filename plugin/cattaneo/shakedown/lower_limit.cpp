@@ -189,9 +189,9 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    }
    if (!reduced.laws.empty())
    {
-      report.message = "no bound: of a contact whose pressures slip changes (B is not zero) "
-                       "one is known with "
-                       "Coulomb's law alone";
+      report.message = "no bound: if slip changes pressures (B is not zero), "
+                       "a bound is known for "
+                       "Coulomb's law only";
       return report;
    }
    const StuckForces loads = stuck_forces(reduced, problem.cycle);
@@ -210,7 +210,8 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
       least_pressure(reduced, residual, loads.p0.col(0).cwiseMax(1e-3 * loads.p0.maxCoeff()));
    if (!least.exists)
    {
-      report.message = "no bound: coupling times friction is too large to bound the pressure";
+      report.message =
+         "no bound: the product of coupling and friction is too large to bound the pressure";
       return report;
    }
    StuckForces lowest = loads;
@@ -246,12 +247,12 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
          report.message =
             "no bound: an admissible slip may take all pressure from node " +
             std::to_string(node) +
-            " even under the constant loads, and the proof needs some at every node";
+            " even under the constant loads, but the proof needs pressure at every node";
       }
       else if (bound.status == LimitStatus::no_solution)
       {
-         report.message = "no bound: some admissible slip may take so much pressure away that "
-                          "not even the constant loads are sure to stick";
+         report.message = "no bound: some admissible slip may take away so much pressure that "
+                          "nodes may slip even under the constant loads";
       }
       return report;
    }
@@ -260,12 +261,12 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    report.slip = bound.slip;
    if (!apart.empty())
    {
-      report.message = "in a contact that stays closed, slip that goes on for ever below this "
-                       "load factor includes slip at a node set apart (proven)";
+      report.message = "below this load factor, slip that goes on for ever in a closed contact "
+                       "includes slip at a node set apart (proven)";
       return report;
    }
    report.message =
-      "every admissible closed start shakes down below this load factor (proven); "
+      "below this load factor every admissible start with closed contact shakes down (proven); "
       "the lower limit itself may be higher";
    return report;
 }
@@ -282,8 +283,8 @@ void tell_starts(LimitReport &upper, const LowerLimitReport &lower)
    if (known) { upper.every_start = lower.value; }
    upper.starts =
       "coupled (degree " + nine_digits(upper.coupling) +
-      "): below the limit some start shakes down, and not every start has to, so that "
-      "a march from rest may slip for ever; λ1, below which every start shakes down, ";
+      "): below the limit some start shakes down, but not every start has to, and a march from "
+      "rest may slip for ever; λ1, below which every start shakes down, ";
    if (lower.kind == LowerLimitKind::two_nodes)
    {
       upper.starts += "is " + nine_digits(lower.value) +
@@ -291,10 +292,7 @@ void tell_starts(LimitReport &upper, const LowerLimitReport &lower)
                       "closed and the rate problem has one solution)";
    }
    else if (known) { upper.starts += "is at least " + nine_digits(lower.value) + " (proven)"; }
-   else if (lower.message.empty())
-   {
-      upper.starts += "was not asked for: lower_limit() has it";
-   }
+   else if (lower.message.empty()) { upper.starts += "was not computed: call lower_limit()"; }
    else { upper.starts += "is not known: " + lower.message; }
 }
 

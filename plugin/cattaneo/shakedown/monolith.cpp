@@ -15,7 +15,7 @@ namespace
 void check_vertex(const LoadCycle &cycle, Eigen::Index vertex)
 {
    require(vertex >= 0 && vertex < cycle.vertices(), "monolith: vertex ", vertex,
-           " is not one of ", cycle.vertices(), " vertices of the load cycle");
+           ", must be from 0 to ", cycle.vertices() - 1, ", a vertex of the load cycle");
 }
 
 /// Smallest x ≥ 0 at which a x² + 2 b x + c, not positive at 0, becomes positive.
@@ -44,7 +44,7 @@ NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes)
    }
    for (const Eigen::Index i : nodes)
    {
-      require(i >= 0 && i < n, "monolith: node ", i, " is not one of ", n, " nodes");
+      require(i >= 0 && i < n, "monolith: node ", i, ", must be from 0 to ", n - 1);
    }
    return nodes;
 }
@@ -53,8 +53,9 @@ NodeList nodes_away_from_ends(const ReducedProblem &problem, double share)
 {
    const Eigen::VectorXd &arc = problem.arc_length;
    const Eigen::Index n = problem.nodes();
-   require(arc.size() == n && n > 0, "the nodes away from the ends of the line: there are ",
-           arc.size(), " arc lengths of ", n, " nodes, there must be one for each");
+   require(arc.size() == n && n > 0,
+           "the nodes away from the ends of the line: the problem has ", arc.size(),
+           " arc lengths, must have one for each of its ", n, " nodes");
    const auto &chains = problem.chains;
    // A loop has no ends, and a plane of symmetry is no end. Beyond such a plane the line goes
    // on as its mirror image, so that its length counts twice.

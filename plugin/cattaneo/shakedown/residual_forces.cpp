@@ -12,17 +12,20 @@ namespace cattaneo
 ResidualForces residual_forces(const ReducedProblem &problem)
 {
    problem.validate();
-   require(problem.components() > 0, "shakedown: the problem was reduced without friction");
+   require(
+      problem.components() > 0,
+      "shakedown: the problem was reduced without friction, must have tangential components");
    require(problem.gap.cwiseAbs().maxCoeff() == 0, "shakedown: the largest gap is ",
            problem.gap.cwiseAbs().maxCoeff(),
            ", must be zero (absorb_gap makes it a load pattern)");
    ResidualForces residual;
    residual.rigid = rigid_slips(problem);
    const SemidefiniteSolver A(problem.A(), residual.rigid);
-   require(A.definite(),
-           "reduced problem: A is not positive semidefinite, or there are more "
-           "slips without forces than its rigid motions say (",
-           residual.rigid.cols(), ")");
+   require(
+      A.definite(),
+      "reduced problem: A is not positive semidefinite, or more slips cause no forces than "
+      "the rigid motions of the problem allow (",
+      residual.rigid.cols(), ")");
    const Eigen::Index m = problem.slips();
    const Eigen::MatrixXd inverse = A.solve(Eigen::MatrixXd::Identity(m, m));
    residual.flexibility = 0.5 * (inverse + inverse.transpose());

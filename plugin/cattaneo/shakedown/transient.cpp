@@ -93,7 +93,7 @@ void TransientSettings::validate() const
 {
    require_at_least("transient: cycles", cycles, 1);
    require_between("transient: shaken_down", shaken_down, 0, 1);
-   require(!std::isnan(upper), "transient: upper is not a number, must be a load factor");
+   require(!std::isnan(upper), "transient: `upper` is not a number, must be a load factor");
    march.validate();
 }
 
@@ -377,9 +377,11 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
          if (opens) { found.opens *= 0.5; }
       }
    }
-   found.message = found.found
-                      ? "a start was found that slips for ever below the upper limit (observed)"
-                      : "no start was found that slips for ever (observed, not proven)";
+   found.message =
+      found.found
+         ? "a start was found from which the contact slips for ever below the upper limit "
+           "(observed)"
+         : "no start was found from which the contact slips for ever (observed, not proven)";
    return found;
 }
 

@@ -22,7 +22,7 @@ void WearLaw::set(const ReducedProblem &problem, const std::string &interface,
                   double coefficient_there)
 {
    require(coefficient.size() == problem.nodes(), "wear law: ", coefficient.size(),
-           " coefficients for ", problem.nodes(), " contact nodes, must be one for each");
+           " coefficients, must be one for each of the ", problem.nodes(), " contact nodes");
    bool found = false;
    std::set<std::string> names;
    for (const ContactChain &chain : problem.chains)
@@ -43,8 +43,8 @@ void WearLaw::validate(const ReducedProblem &problem) const
    const Index n = problem.nodes();
    const auto check = [n](const char *what, const VectorXd &x)
    {
-      require(x.size() == n, "wear law: ", x.size(), " ", what, "s for ", n,
-              " contact nodes, must be one for each");
+      require(x.size() == n, "wear law: ", x.size(), " ", what,
+              "s, must be one for each of the ", n, " contact nodes");
       for (Index i = 0; i < n; ++i)
       {
          require(std::isfinite(x[i]) && x[i] >= 0, "wear law: the ", what, " of node ", i,
@@ -54,7 +54,7 @@ void WearLaw::validate(const ReducedProblem &problem) const
    check("coefficient", coefficient);
    if (threshold.size() > 0) { check("threshold", threshold); }
    require(problem.components() > 0,
-           "wear: the problem was reduced without friction and knows no slip");
+           "wear: the problem was reduced without friction, must have tangential components");
    require(problem.weights.size() == n,
            "wear: the problem has no weights of its nodes, and so no pressure");
 }
@@ -128,7 +128,8 @@ WornDerivative worn_derivative(const ReducedProblem &problem, const WearLaw &law
 double worn_volume(const ReducedProblem &problem, const VectorXd &depth)
 {
    require(problem.weights.size() == depth.size(), "worn volume: ", depth.size(),
-           " depths for a problem with ", problem.weights.size(), " weights of its nodes");
+           " depths, must be one for each of the ", problem.weights.size(),
+           " nodes with weights");
    return problem.weights.dot(depth);
 }
 

@@ -337,7 +337,7 @@ std::optional<Taken> WearMarch::taken_by(const WearCycle &cycle, bool handed_out
       if (taken.depth.size() == 0)
       {
          report_.status = FrictionStatus::stalled;
-         report_.message = "the contact that a cycle wears was not found";
+         report_.message = "no steady contact was found for the wear of a cycle";
          return {};
       }
       for (Index i = 0; i < taken.loss.size(); ++i)
@@ -726,28 +726,29 @@ WearReport WearMarch::run()
    {
       report_.reached = false;
       report_.error = std::numeric_limits<double>::infinity();
-      remark << "the wear is unstable, and the depth at its end is not known to the tolerance: "
-                "with jumps twice as long it differs by "
-             << apart_ << ". Tolerance 0 marches all cycles";
+      remark
+         << "the wear is unstable, and the error of the final depth is above the tolerance: "
+            "with jumps over twice as many cycles the depth differs by "
+         << apart_ << ". Tolerance 0 marches all cycles";
    }
    else if (again_ > 0 && !jumps_)
    {
-      remark << "the wear is unstable: errors of jumps grew, and all cycles were marched. With "
-                "other increments the depth may end elsewhere";
+      remark << "the wear is unstable: errors of jumps grew, so that all cycles were marched. "
+                "Other "
+                "increments may give another final depth";
    }
    else if (again_ > 0 && apart_ > 10 * local_)
    {
       remark << "the wear is unstable: errors of jumps grew by a factor of " << apart_ / local_
-             << ". With other increments the depth may end elsewhere";
+             << ". Other increments may give another final depth";
    }
    for (Kept &kept : kept_) { hand_out(std::move(kept)); }
    state_ = settled(fine_);
    if (noticed_.unsettled >= 0)
    {
-      remark
-         << (remark.str().empty() ? "" : ". ") << "after cycle " << noticed_.unsettled
-         << " no equilibrium was found at the worn gap: the contact returned there is the one "
-            "before the gap took in the wear of that cycle";
+      remark << (remark.str().empty() ? "" : ". ") << "after cycle " << noticed_.unsettled
+             << " no equilibrium was found at the worn gap: the returned contact is that "
+                "before the wear of this cycle was added to the gap";
    }
    report_.remark = remark.str();
    report_.marched = cycles_.marched;
@@ -779,14 +780,14 @@ WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHis
    require(cycles == std::floor(cycles) && cycles <= 1e15, "wear: cycles is ", cycles,
            ", must be a whole number up to 1e15");
    require(history.cycle_start >= 0, "wear: the load history has no cycle");
-   require(state.cycles <= cycles, "wear: cycles is ", cycles, ", of which the state has seen ",
-           state.cycles);
+   require(state.cycles <= cycles, "wear: cycles is ", cycles, ", must be at least ",
+           state.cycles, ", the cycles that the state has had already");
    const bool begins = state.contact.time < history.times[history.cycle_start];
    const VectorXd loads = history.multipliers.col(begins ? 0 : history.cycle_start);
    require(largest(state.contact.multipliers - loads) <= 1e-9 * largest(history.multipliers),
            "wear: the state has the load multipliers (", state.contact.multipliers.transpose(),
-           "), the history begins ", begins ? "" : "its cycle ", "with (", loads.transpose(),
-           ")");
+           "), the history must begin ", begins ? "" : "its cycle ",
+           "with them, but begins with (", loads.transpose(), ")");
    return WearMarch(problem, law, once, cycles, state, settings, observer, watch).run();
 }
 

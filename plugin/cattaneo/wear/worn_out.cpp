@@ -82,7 +82,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    {
       if (cycle.found()) { return false; }
       result.status = cycle.report.status;
-      result.message = cycle.report.message.empty() ? "the cycle does not repeat itself"
+      result.message = cycle.report.message.empty() ? "the cycle did not become steady"
                                                     : cycle.report.message;
       return true;
    };
@@ -165,9 +165,9 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
       }
    }
    std::ostringstream message;
-   message
-      << "the nodes that stick were not found: what slips still carries, and a cycle takes "
-      << result.loss << " of the energy of the unworn one";
+   message << "the sticking nodes of the fully worn state were not found: slipping nodes still "
+              "carry load, and a cycle loses "
+           << result.loss << " of the energy of the unworn one";
    result.status = FrictionStatus::stalled;
    result.message = message.str();
    return result;
