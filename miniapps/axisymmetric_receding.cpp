@@ -200,32 +200,41 @@ void axisymmetric_receding(Study &study)
    study.option(&disc.f, "friction", "Coefficient of friction (0: no tangential unknowns).",
                 not_negative);
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
-   study.option(&obstacle, "obstacle", "What the disc lies on: half-plane, a half-space.",
+   study.option(&obstacle, "obstacle",
+                "Body below the disc: half-plane, which is here an axisymmetric half-space.",
                 {"half-plane"});
    study.option(&options.domain, "domain", domain_help);
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
-   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
+   study.option(&options.spacing, "spacing",
+                "Distance of the contact nodes, in t (thickness of the disc).",
                 above_up_to(0, 0.5));
-   study.option(&on_the_way, "load-levels", "Loading: list of P/P0 to draw (empty: none).",
-                above_up_to(0, 1));
-   study.option(&levels, "unload", "Unloading: list of P/P0 to report (empty: none).",
-                between(0, 1));
+   study.option(
+      &on_the_way, "load-levels",
+      "Loading: fractions of the full load P0 at which tractions are drawn (empty: none).",
+      above_up_to(0, 1));
+   study.option(
+      &levels, "unload",
+      "Unloading: fractions of the full load P0 at which results are printed (empty: none).",
+      between(0, 1));
    study.option(&cycled, "cycle-to",
-                "Load cycles between P0 and less: list of P/P0 to go back to (empty: none).",
+                "Load cycles between P0 and less: the lowest P/P0 of each (empty: none).",
                 between(0, 1));
    study.option(&load_cycles, "load-cycles", "Largest number of load cycles.", at_least(1));
-   study.option(&torques, "torque", "Torsion: list of T/T_s to report (empty: none).",
+   study.option(&torques, "torque",
+                "Torsion: torques at which results are printed, over the torque of steady "
+                "spinning T_s (empty: none).",
                 positive);
    study.option(&rotations, "rotation",
-                "Torsion: list of rotations to report instead, in p0/E.", positive);
+                "Torsion: rotations at which results are printed instead, in p0/E.", positive);
    study.option(&twisted, "twist",
                 "What twists: rotation of the top, of its loaded part or of the rim, or "
                 "traction, a torque, on the loaded part.",
                 {"top", "loaded", "rim", "traction"});
    study.option(&cycles, "cycles", "Torsion: cycles to and fro.", not_negative);
-   study.option(&amplitude, "amplitude", "Torsion: T/T_s that the cycles start from.",
-                above_up_to(0, 1));
-   study.option(&disc.steps, "steps", "Steps of 1/steps of the load or of T_s.", at_least(2));
+   study.option(&amplitude, "amplitude",
+                "Torsion: amplitude of the torque of the cycles, in T_s.", above_up_to(0, 1));
+   study.option(&disc.steps, "steps",
+                "Number of steps from zero to the full load P0, or to T_s.", at_least(2));
    study.option(&bonded_a, "bonded", "Bonded disc: list of a to report.");
    study.option(&map_a, "map", "Map of c and d: list of a (empty: none).");
    study.option(&map_f, "map-friction", "Map of c and d: list of f.", positive);

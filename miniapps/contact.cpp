@@ -157,8 +157,8 @@ void contact(Study &study)
 
    OwnBodies own = make_own_bodies(joint);
    require(options.paraview.empty() || own.known_elements,
-           "option paraview does not go with a body that is a matrix: its elements are not "
-           "known");
+           "option paraview needs the elements of all bodies, which a matrix does not have: "
+           "leave it out");
    require(options.paraview.empty() || joint.formulation != Formulation::plane ||
               !joint.bodies.back().half_plane || !std::isnan(joint.bodies.back().depth),
            "option paraview writes displacements, which on a half-plane are relative to a "
@@ -173,7 +173,7 @@ void contact(Study &study)
    require(options.edges.empty() || std::isnan(options.thickness),
            "option edges is per thickness, it goes without the key 'thickness'");
    require(options.edges.empty() || (problem.nodes() > 0 && problem.friction.maxCoeff() > 0),
-           "option edges needs friction: without it nothing is stuck");
+           "option edges needs friction, because without it nothing sticks");
    history.about_axis = joint.formulation != Formulation::plane;
    history.bolts = own.bolted ? &*own.bolted : nullptr;
    history.go_with = joint.go_with;
@@ -190,10 +190,9 @@ void contact(Study &study)
    study.value("condensation_error_estimate", own.accuracy);
    // Of bodies that are tied alone nothing can open or slip: there is no contact node.
    const bool touches = problem.nodes() > 0;
-   require(
-      touches || !own.bolted,
-      "all interfaces are tied, and bolts have the key 'preload', which is for joints that "
-      "may open or slip: key 'pretension' must be there in its place");
+   require(touches || !own.bolted,
+           "all interfaces are tied, and bolts have the key 'preload', which is for joints "
+           "that may open or slip: use key 'pretension' instead");
    if (!touches || study.verbose())
    {
       study.say(

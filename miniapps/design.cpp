@@ -102,14 +102,16 @@ void design_contact(Study &study)
    study.option(&chosen.scene, "scene", "Pad on a half-plane, or square punch on one.",
                 {"pad", "punch"});
    study.option(&choice.profile, "profile",
-                "Gap: free at each node, a sum of few powers, or flat with rounded ends.",
+                "Shape of the gap: free at each node, a sum of few powers (crown), or flat "
+                "with rounded ends.",
                 {"free", "crown", "rounded"});
-   study.option(&choice.powers, "powers",
-                "Crown: its powers; odd powers make it lean to one side.", within(1, 16));
-   study.option(&chosen.goal, "goal",
-                "Least largest pressure; for a cycle the least energy loss, the largest loss "
-                "(damping), or the least largest loss of a node per area (energy).",
-                {"pressure", "loss", "damping", "energy"});
+   study.option(&choice.powers, "powers", "Powers of the crown; odd powers make it asymmetric.",
+                within(1, 16));
+   study.option(
+      &chosen.goal, "goal",
+      "pressure: smallest peak pressure. For a cycle: loss, the smallest energy loss; damping, "
+      "the largest; or energy, the smallest peak of the loss per area.",
+      {"pressure", "loss", "damping", "energy"});
    study.option(&chosen.loads, "loads", "Normal load P of each case.", positive);
    study.option(&chosen.weights, "weights", "Weight of each case; default: 1.", positive);
    study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", at_least_below(0, 1));
@@ -126,10 +128,10 @@ void design_contact(Study &study)
    study.option(&chosen.nodes, "nodes",
                 "Number of contact nodes, one more than a multiple of 4.", at_least(9));
    study.option(&settings.march.increments, "increments",
-                "Increments between two points of the history.", at_least(1));
+                "Load increments between two points of the history.", at_least(1));
    stepping.declare(study);
-   study.option(&settings.tolerance, "tolerance",
-                "Largest error of the conditions of optimality.", between(0, 1));
+   study.option(&settings.tolerance, "tolerance", "Tolerance of the conditions of optimality.",
+                between(0, 1));
    study.option(&lines, "lines", "Steps of a sweep along each variable.", at_least(0));
    study.option(&starts, "starts",
                 "Number of searches from different places; the best result is kept.",
@@ -140,16 +142,16 @@ void design_contact(Study &study)
                 "With --reduced: load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'.",
                 Text::statements);
    study.option(&chosen.from, "from",
-                "With --reduced: time from which on the points of the history count; default: "
-                "the last one.");
+                "With --reduced: the objective counts points of the history from this time on; "
+                "default: the last point.");
    study.option(&choice.loads, "choose",
                 "With --reduced: loads that are chosen in place of the gap, as 'bolt 1; bolt "
                 "2'. Their sum stays the same, and none falls below zero.");
    study.option(&choice.coat, "coat",
-                "Friction is chosen in place of the gap, from the first number to the second.",
+                "Chooses the friction in place of the gap, between these two numbers.",
                 not_negative);
    study.option(&choice.zones, "zones",
-                "Number of zones of --coat on each line, of equal lengths.", at_least(1));
+                "With --coat: number of zones of equal length on each line.", at_least(1));
    study.parse();
    stepping.set(settings.march);
    const bool saved = !chosen.file.empty(), own_gap = choice.what() == "gap",
@@ -162,14 +164,15 @@ void design_contact(Study &study)
                  "is of a gap that is chosen, --choose and --coat take its place");
    study.only_if(!choice.coat.empty(), {"zones"}, "is of --coat");
    study.only_if(choice.profile == "crown", {"powers"}, "is of --profile crown");
-   study.only_if(!free, {"lines"}, "is not of a free profile, whose variables are many");
-   study.only_if(choice.loads.empty(), {"lines"},
-                 "is not of --choose: the sum of the loads stays, none goes alone");
+   study.only_if(!free, {"lines"}, "is not for a free profile, which has too many variables");
+   study.only_if(
+      choice.loads.empty(), {"lines"},
+      "is not for --choose, where the sum of the loads stays and no load changes alone");
    require(!saved || !chosen.history.empty(),
            "option --history is empty, must be the loads of --reduced");
    require(!chosen.cycles() || chosen.shear > 0 || !std::isnan(chosen.from),
            "option --goal is ", chosen.goal,
-           ", which needs a cycle: --shear, of --reduced --from");
+           ", which needs a cycle: give --shear, or with --reduced the option --from");
    if (chosen.weights.empty()) { chosen.weights.assign(chosen.loads.size(), 1.0); }
    require(chosen.weights.size() == chosen.loads.size(), "option --weights has ",
            chosen.weights.size(), " entries, --loads has ", chosen.loads.size());
@@ -218,8 +221,7 @@ void design_contact(Study &study)
    study.save(problem.with(report.x));
    if (report.status != DesignStatus::optimal)
    {
-      warn("this is the best design of those that were tried, it need not be an "
-           "optimum: " +
+      warn("this is the best design that was tried, but it need not be an optimum: " +
            report.message);
    }
    study.value("objective_at_start", std::abs(report.objective_at_start),

@@ -79,25 +79,28 @@ void assess_pad(Study &study)
                 "Normal force, N/mm, constant (not for kn).");
    study.option(&pad.shear, {"Q", "shear-load"},
                 "Shear force on the specimen at peak load, N/mm (not for kn).");
-   study.option(&pad.bulk, {"bs", "bulk"},
-                "Bulk stress in the specimen at peak load, MPa (default: none, and said so).");
+   study.option(
+      &pad.bulk, {"bs", "bulk"},
+      "Bulk stress in the specimen at peak load, MPa (default: none, with a remark).");
    study.option(&pad.bulk_pad, {"bp", "bulk-pad"}, "Bulk stress in the pad at peak load, MPa.");
    study.option(&pad.load_ratio, {"lr", "load-ratio"},
-                "R, least over peak value of shear and bulk, -1 <= R < 1.");
+                "Load ratio R of shear and bulk stress, least over peak value, -1 <= R < 1.");
    study.option(&pad.friction, {"f", "friction"},
                 "Friction coefficient (default: middle of the material's interval).", positive);
    study.option(&pad.k_n, {"kn", "k-n"}, "K_N in MPa/sqrt(mm) (pad kn).");
    study.option(&pad.k_t, {"kt", "k-t"}, "K_T at peak load in MPa sqrt(mm) (pad kn).");
-   study.option(&pad.half_width, {"a", "half-width"},
-                "Half width of the contact, mm (pad kn, for the validity only).");
    study.option(
-      &pad.nodes, "nodes",
-      "Contact nodes (pad fe); with a flat those of its edges, to which those between come.");
+      &pad.half_width, {"a", "half-width"},
+      "Half width of the contact, mm (pad kn; used only for the checks of validity).");
+   study.option(&pad.nodes, "nodes",
+                "Contact nodes (pad fe); of a pad with a flat the nodes of its two edges, to "
+                "which the nodes between are added.");
    study.option(&pad.order, "order", "Order of the elements (pad fe).", within(1, 8));
-   study.option(&depth, {"ad", "averaging-depth"},
-                "Criteria on critical planes along the surface, of stresses averaged over this "
-                "depth, mm (pad fe; from a spacing of its nodes to half a contact).",
-                positive);
+   study.option(
+      &depth, {"ad", "averaging-depth"},
+      "Evaluates criteria on critical planes along the surface, with stresses averaged over "
+      "this depth in mm (pad fe; from the spacing of its nodes to the half-width of contact).",
+      positive);
    study.option(&weights.findley, "findley",
                 "k of Findley's criterion (with --averaging-depth).", not_negative);
    study.option(&weights.fatemi_socie, "fatemi-socie",
@@ -110,17 +113,19 @@ void assess_pad(Study &study)
                       "must be positive and below 2000 (GPa, not MPa)"});
    study.option(&poisson, {"nu", "poisson"}, "Poisson's ratio (default: the record's).");
    study.option(&threshold, {"kth", "threshold"},
-                "Threshold dK_th, MPa sqrt(m), range or amplitude as the fatigue limit.",
+                "Threshold dK_th, MPa sqrt(m), a range or an amplitude like the fatigue limit.",
                 positive);
    study.option(&limit, {"sfl", "fatigue-limit"}, "Plain fatigue limit, MPa.");
    study.option(&yield, {"k", "shear-yield"}, "Yield stress in pure shear, MPa.");
    study.option(&pad.plane_stress, {"ps", "plane-stress", "no-ps", "plane-strain"},
                 "Plane stress or plane strain.");
    study.option(&criterion, {"c", "criterion"},
-                "What drives the crack: open (part of the cycle), range, or half-range.",
+                "Part of K_I that drives the crack: open (the part of the cycle in which it is "
+                "open), range, or half-range.",
                 {"open", "range", "half-range"});
    study.option(&records, {"rec", "records"},
-                "CSV of tests (P, Q, material, ..., cycles, runout) to correlate.",
+                "CSV file of tests (P, Q, material, ..., cycles, runout) with which the "
+                "measures are compared.",
                 Text::input);
    study.parse("j");
    require(!study.options().says("check"), "option --check: this run has no meshes to show");

@@ -266,16 +266,19 @@ void lap_joint(Study &study)
    std::vector<double> loads, frictions, widths;
    bool touch = false, all_cycles = false;
    study.option(&options.widths[0], "width", "Width w of the pinch pressure, in t.");
-   study.option(&options.protrusion, "protrusion",
-                "Free end beyond the (outermost) bolt, in t.", positive);
-   study.option(&options.remote, "remote", "Loaded end beyond the (outermost) bolt, in t.",
-                above(2));
+   study.option(
+      &options.protrusion, "protrusion",
+      "Length of the free end beyond the (outermost) bolt, in t (thickness of the upper lap).",
+      positive);
+   study.option(&options.remote, "remote",
+                "Length of the loaded end beyond the (outermost) bolt, in t.", above(2));
    study.option(&options.lower_thickness, "lower-thickness",
                 "Thickness of the lower lap over the upper's (1: equal laps).",
                 between(0.1, 100));
    study.option(&joint.friction, "friction", "Coefficient of friction.", positive);
-   study.option(&joint.load, "load",
-                "Tmax/P0, tension positive. P0 = p0 w with the w of --width.");
+   study.option(
+      &joint.load, "load",
+      "Largest remote load Tmax/P0, tension positive, with P0 = p0 w and the w of --width.");
    study.option(&joint.cycles, "cycles",
                 "Largest number of cycles; the march stops when they are steady.", at_least(1));
    study.option(&all_cycles,
@@ -285,27 +288,28 @@ void lap_joint(Study &study)
                 "Load increments from 0 to Tmax, and as many back.", at_least(1));
    stepping.declare_with_events(study);
    study.options().renamed("march", "stepping");
-   study.option(&touch, "touch", "Find the compression at which the free ends touch.");
+   study.option(&touch, "touch", "Also finds the compression at which the free ends touch.");
    study.option(&options.bolts, "bolts", "Positions of the bolts, in t.");
    study.option(&tightening, "tightening",
                 "Orders of tightening, bolts from 1: \"2 1 3 / 1 3 2\" (empty: inner first, "
                 "outer first).");
-   study.option(&joint.snug, "snug",
-                "Pressure, over p0, to which several bolts are tightened together first.",
-                at_least_below(0, 1));
+   study.option(
+      &joint.snug, "snug",
+      "With several bolts: pressure, over p0, to which all are tightened together first.",
+      at_least_below(0, 1));
    study.option(&loads, "sweep-load",
-                "Sweep: list of T/P0 (empty: none), with P0 of --width for all widths.");
-   study.option(&frictions, "sweep-friction", "Sweep: list of f (empty: --friction).",
+                "Sweep: values of T/P0 (empty: none), with P0 of --width for all widths.");
+   study.option(&frictions, "sweep-friction", "Sweep: values of f (empty: --friction).",
                 positive);
-   study.option(&widths, "sweep-width", "Sweep: list of w/t (empty: --width).");
+   study.option(&widths, "sweep-width", "Sweep: values of w/t (empty: --width).");
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
                 above_up_to(0, 0.1));
    study.option(&options.poisson, "poisson", "Poisson's ratio of both laps.");
    study.option(&joint.paraview, "paraview",
                 "Folder for ParaView files of the first cycle (one bolt).", Text::folder);
-   study.option(&joint.frames, "frames", "Intervals between the frames of --paraview.",
-                at_least(1));
+   study.option(&joint.frames, "frames",
+                "Number of intervals between the frames of --paraview.", at_least(1));
    study.parse();
    const std::size_t bolts = options.bolts.size();
    study.only_if(!loads.empty(), {"sweep-friction", "sweep-width"}, "goes with --sweep-load");

@@ -62,13 +62,13 @@ void march_problem(Study &study)
                 "Coefficient of friction of all nodes, instead of the file's.", not_negative);
    const StrengthOptions strength(study);
    study.option(&method, "method",
-                "automatic, or gauss-seidel (node by node alone, as in the thesis).",
+                "automatic, or gauss-seidel (one node at a time, as in the thesis).",
                 {"automatic", "gauss-seidel"});
    study.option(&solver.tolerance, "tolerance",
-                "Largest violation of an equation or law, over the largest nodal force.",
+                "Largest violation of an equation or law, relative to the largest nodal force.",
                 positive);
-   study.option(&max_sweeps, "max-sweeps", "Most sweeps of an increment by gauss-seidel.",
-                at_least(1));
+   study.option(&max_sweeps, "max-sweeps",
+                "Largest number of sweeps of an increment by gauss-seidel.", at_least(1));
    study.parse();
    study.only_if(method == "gauss-seidel", {"max-sweeps"}, "goes with --method gauss-seidel");
    history.check_options();

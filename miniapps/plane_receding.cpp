@@ -194,11 +194,13 @@ void plane_receding(Study &study)
    Unloading unloading{
       50, 0.05, {}, "levels", "tractions", "Pressure p and shear q over f", "right", 2.5};
    bool study_domain = false;
-   study.option(&overhang, "overhang", "n: the strip's end to the edge of the load, in t.");
+   study.option(&overhang, "overhang",
+                "Distance n from the strip's end to the edge of the load, in t (thickness of "
+                "the strip).");
    study.option(&friction, "friction", "Coefficient of friction.", positive);
    study.option(&obstacle, "obstacle",
-                "What the strip lies on: half-plane, or th0, the thesis' block: --length 20 "
-                "--domain 200 --side 80.",
+                "Body below the strip: half-plane, or th0, the block of the thesis (--length "
+                "20 --domain 200 --side 80).",
                 {"half-plane", "th0"});
    study.option(&options.domain, "domain", domain_help, none_or_above(1));
    study.option(&options.side, "side",
@@ -210,24 +212,29 @@ void plane_receding(Study &study)
    study.option(&options.corner, "corner",
                 "Distance of the contact nodes at the strip's end, in t.");
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
-   study.option(&unloading.wanted, "unload", "Unloading: list of p/p0 to report (empty: none).",
+   study.option(&unloading.wanted, "unload",
+                "Unloading: values of p/p0 at which results are printed (empty: none).",
                 between(0, 1));
-   study.option(&unloading.steps, "steps", "Unloading: steps of 1/steps of p0.", at_least(2));
+   study.option(&unloading.steps, "steps", "Unloading: number of steps from p0 to zero.",
+                at_least(2));
    stepping.declare_with_events(study);
    study.options().renamed("march", "stepping");
    study.option(&unloading.lowest, "lowest",
-                "Unloading: p/p0 at which it ends; steps shrink toward it.", between(0, 1));
-   study.option(&slipping, "slip", "Unloading: list of ξ/t whose slip is followed.");
+                "Unloading: lowest p/p0, towards which the steps shrink.", between(0, 1));
+   study.option(&slipping, "slip", "Unloading: places ξ/t whose slip is followed.");
    study.option(
       &cycled, "cycle-to",
       "Cycles of the load between p0 and less: list of the lowest p/p0 (empty: none).",
       between(0, 1));
    study.option(&cycles, "cycles", "Largest number of cycles of the load.", at_least(1));
    study.option(&bonded_n, "bonded",
-                "Bonded strips: list of n to draw, with the n at which their kind changes.",
+                "Bonded strips: values of n whose tractions are drawn; the n at which their "
+                "kind changes is printed too.",
                 positive);
-   study.option(&map_n, "map", "Map of s and e: list of n (empty: none).");
-   study.option(&map_f, "map-friction", "Map of s and e: list of f.", positive);
+   study.option(
+      &map_n, "map",
+      "Map of the separation s and the border of stick e: values of n (empty: none).");
+   study.option(&map_f, "map-friction", "Map of s and e: values of f.", positive);
    study.option(&study_domain, "domain-study", "Print s and e for growing domains.");
    study.parse();
    study.only_if(!map_n.empty(), {"map-friction"}, "goes with --map");

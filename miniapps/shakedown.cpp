@@ -75,8 +75,8 @@ void Shakedown::options()
 {
    std::string obstacle = "half-plane";
    study.option(&friction, "friction",
-                "Coefficient of friction for the largest load and the marches; default: 0.85, "
-                "for a saved problem that of the file.",
+                "Coefficient of friction, for the largest load and the marches; default: 0.85, "
+                "with --reduced that of the file.",
                 positive);
    study.option(&lambda_max, "lambda-max",
                 "Largest cycled load, for the smallest friction and the marches.", positive);
@@ -89,21 +89,19 @@ void Shakedown::options()
                 "The smallest friction for the loads, the largest load for the friction, or "
                 "both: friction, load or both.",
                 {"friction", "load", "both"});
-   study.option(
-      &map, "map",
-      "Largest load against friction for several R (figure 4.18); also with --plot or --html.");
+   study.option(&map, "map",
+                "Computes the largest load against friction for several R (figure 4.18); also "
+                "with --plot or --html.");
    study.option(&adhesion, "adhesion-map",
-                "Friction that prevents all slip under a monotonic load (figure 4.3); also "
-                "with --plot or "
-                "--html.");
-   study.option(
-      &steps, "tractions",
-      "Tractions of the monolith and the steps of the estimates (figures 4.4 to 4.14).");
-   study.option(
-      &march, "march",
-      "March in time from zero, optimal and negative optimal slip, whose outcome is then that "
-      "of the run; also with --plot or --html.");
-   study.option(&cycles, "cycles", "Cycles of a march, at most.", at_least(1));
+                "Computes the friction that prevents all slip under a monotonic load (figure "
+                "4.3); also with --plot or --html.");
+   study.option(&steps, "tractions",
+                "Prints the tractions of the monolith and the steps of the estimates (figures "
+                "4.4 to 4.14).");
+   study.option(&march, "march",
+                "Marches in time from three initial slips (zero, optimal and negative "
+                "optimal); their outcome is then that of the run; also with --plot or --html.");
+   study.option(&cycles, "cycles", "Largest number of cycles of a march.", at_least(1));
    study.option(
       &starts, "starts",
       "Number of random starts in the search for a start that slips for ever (0: none).",
@@ -113,8 +111,8 @@ void Shakedown::options()
       "Also find the load that is proven to shake down from every start, with and without "
       "slip at nodes near the ends.");
    study.option(&load_ratios, "load-ratios",
-                "Largest loads over f for R = -1 with f = 0.85 and 1, and R = -0.5 with 0.85 "
-                "(chapter 4).");
+                "Prints the largest loads over f for R = -1 with f = 0.85 and 1, and for R = "
+                "-0.5 with f = 0.85 (chapter 4).");
    study.option(
       &transposed, "transposed",
       "The smallest friction, and the ratios of --load-ratios, with the block B of the "
@@ -133,7 +131,7 @@ void Shakedown::options()
       &mismatch_poisson, "mismatch-poisson",
       "Poisson's ratios of the half-plane for --mismatch (default: that of the block).",
       at_least_below(0, 0.5));
-   study.option(&obstacle, "obstacle", "What the block stands on: rigid or half-plane.",
+   study.option(&obstacle, "obstacle", "Body below the block: rigid or half-plane.",
                 {"rigid", "half-plane"});
    add_options(study, punch);
    strength.emplace(study);
@@ -152,7 +150,7 @@ void Shakedown::options()
                   "mesh-study", "mismatch"},
                  "is for the punch, not for a saved problem");
    study.only_if(std::isnan(reversal), {"lambda-min"},
-                 "says the same as --reversal, say one of them");
+                 "gives the same as --reversal: use one of them");
    punch.half_plane = obstacle == "half-plane";
    study.only_if(!mismatch.empty(), {"mismatch-poisson"}, "goes with --mismatch");
    if (mismatch_poisson.empty()) { mismatch_poisson = {punch.poisson}; }
@@ -213,8 +211,8 @@ void Shakedown::take_law()
       friction = gapped.friction.maxCoeff();
       require(gapped.friction.minCoeff() == friction, "'", reduced,
               "' has coefficients of friction from ", gapped.friction.minCoeff(), " to ",
-              friction, ", limits are of one: say --friction");
-      require(friction > 0, "'", reduced, "' has no friction: say --friction");
+              friction, ", limits need a single one: give --friction");
+      require(friction > 0, "'", reduced, "' has no friction: give --friction");
       results["friction"] = friction;
       return;
    }

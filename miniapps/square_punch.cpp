@@ -72,7 +72,7 @@ void square_punch(Study &study)
    double friction = none, amplitude = 0.8;
    std::vector<double> shear = {0.25, 0.5, 0.75, 0.9}, jumps;
    int cycles = 0;
-   study.option(&obstacle, "obstacle", "What the block stands on: rigid or half-plane.",
+   study.option(&obstacle, "obstacle", "Body below the block: rigid or half-plane.",
                 {"rigid", "half-plane"});
    study.option(&friction, "friction",
                 "Coefficient of friction; default 0.2 (rigid), 0.4 (half-plane).",
@@ -99,8 +99,9 @@ void square_punch(Study &study)
    if (friction == 0)
    {
       require(shear.empty() || !study.options().says("shear"),
-              "option --shear is of Q/fP, and --friction 0 leaves no f P");
-      require(cycles == 0, "option --cycles: they are of Q/fP, and --friction 0 leaves no f P");
+              "option --shear gives Q/fP, so that --friction must be above 0");
+      require(cycles == 0,
+              "option --cycles: the amplitude is in Q/fP, so that --friction must be above 0");
       shear.clear();
    }
 

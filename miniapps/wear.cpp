@@ -91,7 +91,8 @@ void wear_contact(Study &study)
                 "the largest depth. 0: no cycle is skipped.",
                 within(0, 0.1));
    study.option(&update, "update",
-                "When wear is added to the gap: after each cycle, or after each piece of it.",
+                "When wear is added to the gap: after each cycle, or after each piece of the "
+                "cycle (from one point of the history to the next).",
                 {"cycle", "piece"});
    study.option(&settings.march.increments, "increments",
                 "Load increments between two points of the history. 0: 1 where slip is in "
@@ -235,14 +236,16 @@ void wear_contact(Study &study)
                   report.seconds));
    if (report.error > 0 && std::isfinite(report.error))
    {
-      study.say("   the ± is an estimate of what jumps over cycles err by, at any node");
+      study.say("   the ± is an estimate of the largest error, at any node, that jumps over "
+                "cycles cause");
    }
    if (!report.remark.empty()) { warn(report.remark); }
    if (report.implicit_cycles > 0)
    {
-      warn(text("%ld cycles wore so much that pressures changed within them: k or the "
-                "amplitude is large, and the way there has an error of its first order",
-                report.implicit_cycles));
+      warn(
+         text("%ld cycles wore so much that pressures changed within them: k or the amplitude "
+              "is large, and the depths before the end have an error of first order",
+              report.implicit_cycles));
    }
    if (!save_state.empty() && writes()) { save(state, save_state); }
    if (report.status != FrictionStatus::converged)
@@ -273,8 +276,8 @@ void wear_contact(Study &study)
       study.title("Worn out");
       return study.say(coefficient == 0
                           ? "   none: with k = 0 nothing wears"
-                          : "   not solved for: what presses less than the threshold does not "
-                            "wear, and wear ends earlier than where slip carries nothing");
+                          : "   not computed with a threshold: nodes with less pressure do not "
+                            "wear, so that wear ends before slipping nodes are free of load");
    }
    Watch watch("worn out");
    settings.march.monitor = watch.monitor();

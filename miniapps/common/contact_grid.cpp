@@ -14,7 +14,7 @@ double element_growth(double chosen, int order)
 void check_growth(double chosen)
 {
    cattaneo::require(chosen == 0 || (chosen > 1 && chosen <= 2), "growth is ", chosen,
-                     ", must be above 1 and at most 2, or 0 for the usual one");
+                     ", must be above 1 and at most 2, or 0 for the default");
 }
 
 double smallest_step(const std::vector<double> &grid)

@@ -26,7 +26,7 @@ void DiscOptions::validate() const
    require(domain == 0 || domain > disc_radius + 1, "option --domain is ", domain,
            ", must be 0, for a half-space without a mesh, or above ", disc_radius + 1,
            " (in t)");
-   require(!load_radii.empty(), "there is no load radius");
+   require(!load_radii.empty(), "option --load-radius has no value, must have at least one");
    for (double a : load_radii)
    {
       require(a > 0 && a <= disc_radius, "option --load-radius is ", a,

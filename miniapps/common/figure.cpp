@@ -286,7 +286,8 @@ void show(const std::string &run, bool passing, const std::string &option,
    // Ctrl-C is for the study: a second one must not leave half a picture.
    const int code = std::system(
       ("trap '' INT; command -v python3 >/dev/null && CATTANEO_PROGRAM=1 " + command).c_str());
-   require(code == 0, "option ", option, ": '", file, "' was not made; it needs Python 3",
+   require(code == 0, "option ", option, ": '", file,
+           "' was not made, because it needs Python 3",
            option == "--plot" ? " with matplotlib (Debian: python3-matplotlib)" : "",
            "; the run is in '", run, "', and this makes it later: ", command);
    if (passing) { std::remove(run.c_str()); }

@@ -36,7 +36,7 @@ void HalfPlanes::validate() const
    require(!grid.empty() || (nodes >= 9 && (nodes - 1) % order == 0), "option --nodes is ",
            nodes, ", must be at least 9 and one more than a multiple of the order ", order);
    require(domain > 0 || !(bulk || bulk_pad),
-           "bulk stress is asked for without option --domain, must be in a block");
+           "bulk stress needs a meshed block: option --domain must give its size");
    check_growth(growth);
    require(half_width > 0 && load > 0, "the half-width ", half_width, " and the load ", load,
            " of the contact must be positive");

@@ -17,9 +17,9 @@ using namespace cattaneo;
 void LapJointOptions::validate() const
 {
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
-   require(!widths.empty(), "there is no width of the pinch pressure");
+   require(!widths.empty(), "option --width has no value, must have at least one");
    require(!bolts.empty(),
-           "option --bolts is empty, must list the position of one bolt at least");
+           "option --bolts is empty, must have the position of at least one bolt");
    for (double w : widths)
    {
       require(w > 0 && 0.5 * w <= protrusion, "option --width or --sweep-width: ", w,
@@ -33,7 +33,7 @@ void LapJointOptions::validate() const
       require(std::count(bolts.begin(), bolts.end(), x) == 1,
               "option --bolts: there are two bolts "
               "at ",
-              x, ", each must have a place of its own");
+              x, ", must be at different places");
    }
 }
 

@@ -86,7 +86,7 @@ std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, [[maybe_unused]] int ord
    {
       cattaneo::require(mesh.GetNE() >= ranks(), "the mesh has ", mesh.GetNE(),
                         " elements for ", ranks(),
-                        " ranks, there must be at least one for each");
+                        " ranks, must be at least one for each rank");
       return std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, mesh);
    }
 #endif
@@ -130,7 +130,7 @@ int run(const std::function<int()> &body)
    }
    catch (const std::bad_alloc &)
    {
-      return refused("memory is too small for this problem, it must have fewer nodes");
+      return refused("there is not enough memory for this problem: use fewer nodes");
    }
    catch (const std::exception &error) // an InputError, or a library's
    {

@@ -96,7 +96,7 @@ std::string replaced_in(const std::string &structure, const std::string &by,
                         const std::string &key, const std::string &value)
 {
    const std::vector<std::string> path = split(key, ".");
-   require(cattaneo::is_utf8(key + value), by, ": what it says is not UTF-8");
+   require(cattaneo::is_utf8(key + value), by, ": its text must be UTF-8");
    auto all = parsed(structure.empty() ? "{}" : structure);
    nlohmann::ordered_json *place = &all;
    for (std::size_t k = 1; k < path.size(); ++k)
@@ -304,7 +304,7 @@ void Options::read_words()
                  " has no value");
          given.text = words_[++i];
          require(!option->is_written() || !given.text.empty(), "option ", word,
-                 " is empty, must name what is written");
+                 " is empty, must name a file");
       }
       const auto before =
          std::find_if(given_.begin(), given_.end(),

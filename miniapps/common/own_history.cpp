@@ -128,8 +128,9 @@ void check_energies(std::initializer_list<double> energies)
 {
    for (double energy : energies)
    {
-      require(std::isfinite(energy),
-              "the energies of the march overflow: the loads or the moduli need other units");
+      require(
+         std::isfinite(energy),
+         "the energies of the march overflow: use other units for the loads or the moduli");
    }
 }
 
@@ -220,8 +221,8 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
    study.option(&cycle_start_, "cycle-start",
                 "Point of the history (from 0) where its cycle starts; -1: there is none.",
                 at_least(-1));
-   study.option(&cycles_, "cycles", "Number of cycles to march (fewer if they become steady).",
-                at_least(1));
+   study.option(&cycles_, "cycles",
+                "Largest number of cycles: the march ends when they are steady.", at_least(1));
    study.option(&settings.increments, "increments",
                 "Load increments between two points of the history.", at_least(1));
    stepping_.declare_with_events(study);
@@ -241,8 +242,8 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
 void OwnHistory::check_options()
 {
    cattaneo::require(cycles_ <= 1 || cycle_start_ >= 0, "option --cycles is ", cycles_,
-                     ", but the history has no cycle: option --cycle-start must say at which "
-                     "of its points one starts");
+                     ", but the history has no cycle: option --cycle-start must give the point "
+                     "at which the cycle starts");
    cattaneo::require(!study_.options().says("history") ||
                         text_.find_first_not_of("; \t\n") != std::string::npos,
                      "option --history has no point, must have one at least, as 'P=1' (without "
@@ -270,7 +271,7 @@ void OwnHistory::begin(const ReducedProblem &problem)
       const auto values = history_.multipliers.row(static_cast<Eigen::Index>(k));
       if (values.cwiseAbs().maxCoeff() > 0) { continue; }
       warn("load '" + problem.patterns[k].name +
-           "' is zero throughout the history, it does nothing: name it there, as '" +
+           "' is zero throughout the history, so that it does nothing: name it there, as '" +
            problem.patterns[k].name + "=1', or leave it out");
    }
    state = ContactState::virgin(problem);
@@ -393,15 +394,14 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    const bool shown = study_.keeps_panels() && problem.nodes() > 0;
    if (goes_on && shown && zones_in_time.empty())
    {
-      study_.say(
-         text("Zones in time begin at %g, where the march is taken up: there is no file "
-              "of those before",
-              state.time));
+      study_.say(text("Zones in time begin at %g, where the march continues, because no file "
+                      "has the earlier ones",
+                      state.time));
    }
    if (ended > 0 && !study_.csv().empty() && study_.rows_before("cycles").empty())
    {
-      study_.say(text("The table of cycles begins after cycle %d, where the march is taken up: "
-                      "there is no file of those before",
+      study_.say(text("The table of cycles begins after cycle %d, where the march continues, "
+                      "because no file has the earlier ones",
                       ended));
    }
    Film *film = problem.nodes() > 0 ? study_.film(problem) : nullptr;
@@ -544,8 +544,7 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
    study_.results["touching_nodes"] = touching;
    if (touching > 0)
    {
-      study_.say(text("   %ld nodes touch without force; they carry nothing and count as "
-                      "separated",
+      study_.say(text("   %ld nodes touch without force, and count as separated",
                       static_cast<long>(touching)));
    }
    Panel &drawn =

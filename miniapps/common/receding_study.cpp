@@ -98,7 +98,7 @@ void map_loads(Study &study, const ResultTable &table, ReducedProblem problem,
    if (failed == 0) { return; }
    study.code = 2;
    study.results["status"] = "ended early";
-   study.results["message"] = text("%zu of %zu states of the map have no answer, or several",
+   study.results["message"] = text("%zu of %zu states of the map have no solution, or several",
                                    failed, table.json().size());
    study.say(study.results["message"].get<std::string>());
 }

@@ -106,7 +106,7 @@ References::References(const std::string &study) : entries_(ordered_json::array(
    const std::string file = shipped("miniapps/data/references.json");
    if (!std::ifstream(file).good())
    {
-      warn("nothing is compared with references: file '" + file + "' cannot be read");
+      warn("no result is compared with references, because file '" + file + "' cannot be read");
       return;
    }
    try

@@ -299,8 +299,8 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
    {
       if (!cycle.whole)
       {
-         study.say(text("cycle %d was taken up within it: what is known is its rest, which is "
-                        "left out",
+         study.say(text("the march began within cycle %d, so that only a part of this cycle is "
+                        "known; it is left out",
                         cycle.cycle));
          continue;
       }
@@ -324,8 +324,9 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
    }
    for (const std::string &load : still)
    {
-      study.say("load " + load +
-                " moves nothing that it acts on in a cycle, so it has no loop");
+      study.say(
+         "load " + load +
+         " does no work in a cycle, because what it acts on does not move: it has no loop");
    }
    report_steady(study, report);
    add_loops(study.lines("loops", "Loads over their displacements", "displacement", "force"),
@@ -383,12 +384,13 @@ void report_loss_error(Study &study, const MarchReport &report)
    study.results["loss_error_by"] = error.by;
    if (std::isnan(error.value))
    {
-      study.say("How wrong the increments make the loss is not known: " + error.by);
+      study.say("The error of the loss by the increments is not known: " + error.by);
    }
    else if (error.value > 0)
    {
-      study.say("The increments change the loss, in all or of a cycle, by up to " +
-                error_text(error.value) + " (" + word + ": " + error.by + ")");
+      study.say(
+         "The increments change the loss (the largest change, in all or of a cycle) by up to " +
+         error_text(error.value) + " (" + word + ": " + error.by + ")");
    }
 }
 
@@ -424,8 +426,8 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
    }
    if (report.advance_error > 1e-6)
    {
-      say("Contact advanced with friction, whose forces depend on how that is cut into "
-          "increments: by up to ",
+      say("Contact advanced with friction, so that friction forces depend on the increments: "
+          "by up to ",
           error_text(report.advance_error), " of the largest nodal force");
    }
    if (report.stalled > 0)

@@ -31,8 +31,8 @@ void Study::parse(const char *json)
    option(&json_, {json, "json"}, "File for the results.", Text::output);
    option(&csv_, "csv", "Prefix of CSV files of tables and figures.", Text::prefix);
    option(&plot_, "plot", "Picture of the results (png, pdf, svg).", Text::picture);
-   option(&html_, "html", "Page (HTML) of the run, with a slider over its increments.",
-          Text::page);
+   option(&html_, "html",
+          "File for a page (HTML) of the run, with a slider over its increments.", Text::page);
    option(&check_, "check",
           "Show bodies, contact, supports and loads in tables (and with --plot in a picture), "
           "and compute nothing.");
@@ -41,8 +41,10 @@ void Study::parse(const char *json)
           "Print all: every option, all rows of long tables, how often each expensive step was "
           "done, and the kernels of OpenBLAS.");
    options_.leave_out_of_cases("verbose");
-   option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
-          Text::output);
+   option(
+      &save_, "save",
+      "File for the reduced problem (read by --reduced of march, shakedown, wear and design).",
+      Text::output);
    options_.group("Many runs");
    option(&sweep_, "sweep",
           "One run for each value of an option, as 'friction=0.2 0.5' or 'order=1:4:4' "
@@ -57,17 +59,17 @@ void Study::parse(const char *json)
    {
       options_.group("Several ranks");
       option(&condensation().direct_dofs, "direct-dofs",
-             "Bodies of more dofs than this are distributed and condensed by iterations, "
-             "others factored by every rank.");
+             "Bodies with more dofs are distributed and condensed by iterations, smaller ones "
+             "are factored by each rank.");
       option(&condensation().max_iterations, "max-iterations",
-             "Most iterations for a right-hand side.");
+             "Largest number of iterations for a right-hand side.");
    }
    options_.parse();
    const bool sweeps = sweep_ != "none" && !sweep_.empty();
    // A point of a sweep has none itself; its case file may still name what the sweep shows.
    options_.only_if(options_.says("sweep"), {"sweep-results"}, "goes with --sweep");
    cattaneo::require(!check_ || save_.empty(),
-                     "option --save: --check stops before there is anything to save");
+                     "option --save cannot be used with --check, which computes nothing");
    if (!sweeps) { return; }
    cattaneo::require(!check_, "option --check checks one run, it cannot be used with --sweep");
    run_sweep(*this, name_, sweep_);

@@ -84,7 +84,7 @@ std::vector<SweptKey> read_keys(const std::string &statements)
 std::string negative(const std::string &word)
 {
    require(as_number(word).is_number(), "option --sweep: '", word,
-           "' must be a number, because a key with a minus has the negative value");
+           "' must be a number, because a key with a minus gets the opposite value");
    return word[0] == '-' ? word.substr(1) : '-' + word;
 }
 
@@ -136,7 +136,7 @@ ordered_json numbers_of(const std::vector<std::string> &words)
 
 void run_sweep(const Study &study, const std::string &name, const std::string &statements)
 {
-   require(ranks() == 1, "option --sweep is for one rank, this runs on ", ranks());
+   require(ranks() == 1, "option --sweep must run on one rank, this runs on ", ranks());
    // Keys and values that no option allows are refused before anything runs.
    const std::vector<SweptKey> keys = read_keys(statements);
    ordered_json points = ordered_json::array(), swept = ordered_json::array();
@@ -150,7 +150,7 @@ void run_sweep(const Study &study, const std::string &name, const std::string &s
    }
    std::string plan = (fs::temp_directory_path() / "cattaneo_sweep_XXXXXX").string();
    const int made = mkstemp(plan.data());
-   require(made >= 0, "option --sweep: no file can be made in '",
+   require(made >= 0, "option --sweep: cannot write a file into '",
            fs::temp_directory_path().string(), "'");
    close(made);
    cattaneo::write_whole(plan,
@@ -163,7 +163,7 @@ void run_sweep(const Study &study, const std::string &name, const std::string &s
                             .dump());
    become_reader({"--sweep", plan});
    fs::remove(plan);
-   require(false, "option --sweep needs Python 3 (Debian: python3), which is not there");
+   require(false, "option --sweep needs Python 3, which is not installed (Debian: python3)");
 }
 
 } // namespace miniapp

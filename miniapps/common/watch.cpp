@@ -54,8 +54,9 @@ void show_line(double seconds)
                                   : "";
       how_far = share + text("%ld steps, ", p.steps) + left;
    }
-   std::fprintf(stderr, "\r%s: %s%.0f s (%s)\x1b[K", on_line.works.back(), how_far.c_str(),
-                seconds, stop ? "stops; Ctrl-C ends it now" : "Ctrl-C writes what there is");
+   std::fprintf(
+      stderr, "\r%s: %s%.0f s (%s)\x1b[K", on_line.works.back(), how_far.c_str(), seconds,
+      stop ? "stops; Ctrl-C ends it now" : "Ctrl-C ends it and writes the results so far");
    std::fflush(stderr);
    on_line.shown = true;
 }

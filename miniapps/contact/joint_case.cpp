@@ -448,19 +448,19 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    if (key.has("motion"))
    {
       require(sides.size() == 1, key.called(),
-              ": a motion is that of the rigid obstacle of one side alone");
+              ": only the rigid obstacle of an interface with one side can move");
       made.motions = motions(key["motion"]);
    }
    if (key.has("guide"))
    {
       require(sides.size() == 1 && !key.has("motion"), key.called(),
-              ": a guide is that of the rigid obstacle of one side alone, and goes without the "
-              "key motion");
+              ": only the rigid obstacle of an interface with one side can have a guide, and "
+              "it goes without the key motion");
       const Key guide = key["guide"];
       guide.must_be_of({"x", "y", "rotation", "centre"});
       made.guide = guide_of(guide);
       require(made.guide->centre || made.guide->rotation.motion == Guide::Motion::held,
-              guide.called(), " lets the obstacle turn, it must have the centre");
+              guide.called(), " lets the obstacle turn, must have the key centre");
    }
    for (const char *other :
         {"friction", "strength", "gap", "overlap", "pairing", "obstacle", "motion", "guide"})
@@ -622,13 +622,13 @@ void part_loads(JointCase &joint)
               "' has forces and displacements, "
               "and there is a load '",
               name, moved,
-              "', which is what the results call its displacements: it must have another name");
+              "', the name of its displacements in the results: rename one of the two");
       joint.go_with[name + moved] = name;
    }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
       require(!both(bolt.name), bolt.source.called("preload"), ": its load '", bolt.name,
-              "' moves something as well, which must be a load of another name");
+              "' prescribes a displacement as well: give that a load of another name");
    }
    each_load(joint,
              [&](std::string &name, bool moves)
@@ -712,7 +712,7 @@ JointCase joint_case(const JointKeys &keys, int order)
                     : "about an axis, must be left out");
       require(one.matrix.empty() || joint.thickness == 1, "key 'thickness' is ",
               joint.thickness, ", and body ", one.name,
-              " is a matrix, which has its thickness in itself: it must be left out");
+              " is a matrix, whose stiffness already has its thickness: leave the key out");
    }
    require(std::isnan(keys.thickness) || joint.formulation == Formulation::plane,
            "key 'thickness' is given about an axis, must be left out");

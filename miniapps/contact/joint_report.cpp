@@ -278,7 +278,7 @@ void JointReport::report_cycles(const MarchReport &march)
    {
       if (cycle.whole && cycle.cycle == begun_)
       {
-         study_.say(text("cycle %d was taken up within it: the loops of its interfaces are not "
+         study_.say(text("the march began within cycle %d: the loops of its interfaces are not "
                          "known, and left out",
                          begun_));
          continue;
@@ -321,10 +321,10 @@ void JointReport::report_bolts(const ContactState &state)
                  {bolt.name, range.tight, range.all_tight, now[k], range.least, range.most});
       // Bolts that are still to be tightened give a little with those that are.
       if (bolt.tightened || range_[k].push <= 1e-3 * bolt.force) { continue; }
-      warn(text("bolt '%s' pushes its ends apart, by up to %g: a shank here resists both ways, "
-                "a real one falls loose; tighten it before what brings the ends together, or "
-                "give it more pretension",
-                bolt.name.c_str(), range_[k].push));
+      warn(text(
+         "bolt '%s' is compressed, by up to %g, where a real bolt would become loose: tighten "
+         "it after the loads that press its ends together, or give it more pretension",
+         bolt.name.c_str(), range_[k].push));
    }
 }
 

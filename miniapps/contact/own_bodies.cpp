@@ -24,8 +24,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
       parts.emplace_back(own, joint, static_cast<int>(b));
       half_planes += joint.bodies[b].half_plane;
    }
-   require(half_planes < 2, "there are ", half_planes,
-           " half-planes, must be one at most: two would have no body between them");
+   require(half_planes < 2, "there are ", half_planes, " half-planes, must be at most one");
    const bool twists = twist(own, joint, parts);
    find_matrices(own, joint, parts);
    for (const JointCase::Bolt &bolt : joint.bolts)
@@ -33,7 +32,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
       for (const OwnPart &part : parts)
       {
          require(!part.has_load(bolt.name), part.called(), " has a load '", bolt.name,
-                 "', which is the name of a bolt: one of them must have another");
+                 "', which is the name of a bolt: rename one of the two");
       }
    }
    for (const JointCase::Bolt &bolt : joint.bolts)

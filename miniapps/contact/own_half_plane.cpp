@@ -111,7 +111,7 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
               " must give it, unless the body has no such supports and only forces act on it");
    }
    require(!relative || joint.bolts.empty(), plane.source.called("half-plane.depth"),
-           " must be given beside bolts, whose forces follow displacements");
+           " must be given if there are bolts, because their forces depend on displacements");
    below.thickness = joint.thickness_of(number);
    below.depth = relative ? 1e4 * box.diagonal().norm() : about_axis ? 0 : plane.depth;
    own.scene.reduction = reduce(std::move(bodies), std::move(interfaces), below);

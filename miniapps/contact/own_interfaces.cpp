@@ -161,8 +161,8 @@ void check_overlap(const ReducedProblem &problem, const InterfaceReport &report,
               " overlaps the body by ", overlap, " at ",
               Eigen::Vector2d(report.position.row(i)), ", at most ",
               face.most_overlap * element, " is allowed (", face.most_overlap,
-              " of the element's length): if it is to be pressed open, key 'overlap' must "
-              "allow more; a side that looks away from the obstacle is no part of the contact");
+              " of the element's length): for an interference fit allow more by key 'overlap'; "
+              "leave out of the contact a side that faces away from the obstacle");
    }
 }
 
@@ -195,7 +195,8 @@ Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
    {
       require(joint.faces.size() == 1 && condensed.size() == 2 && one.sides[1].body >= 0,
               one.source.called("pairing"),
-              " is for two bodies at one interface only: leave it out, nodes need not match");
+              " is for two bodies at one interface only: leave it out, because nodes need not "
+              "match");
       return paired(std::move(condensed), one);
    }
    return reduce(std::move(condensed), interfaces_of(joint, lines));

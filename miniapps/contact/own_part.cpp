@@ -153,7 +153,7 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          if (!names.passed_over.empty())
          {
             warn("mesh '" + body_.mesh + "': its " + names.passed_over +
-                 " are passed over, contacts, supports and loads are those of the case");
+                 " are ignored: contacts, supports and loads are those of the case");
          }
          if (const std::string other = other_plane_state(names, joint_.plane_stress);
              !other.empty())
@@ -317,13 +317,11 @@ void OwnPart::make_of_matrix(NodalStiffness matrix)
            ", as key 'analysis' says");
    nodal_ = std::move(matrix);
    const std::string key = body_.source.called("order");
-   require(
-      nodal_->edges.empty() || body_.order == 0, key,
-      ": its elements are known, and have their orders in themselves: it must be left out");
-   require(
-      !nodal_->edges.empty() || body_.order > 0, "its elements are not known: ", key,
-      " must say the order of those along the sets, whose nodes are then in a row with the "
-      "body on their left");
+   require(nodal_->edges.empty() || body_.order == 0, key,
+           ": the orders of its elements are known from the deck: leave this key out");
+   require(!nodal_->edges.empty() || body_.order > 0, "its elements are not known, so ", key,
+           " must give the order of the elements along the sets; list the nodes of a set in "
+           "sequence, with the body on the left");
    if (!nodal_->fixed.empty())
    {
       holdings_.push_back({"support", "of the deck", nodal_->fixed});
@@ -576,8 +574,7 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
             const auto taken = std::find_if(all.begin(), all.end(), has);
             require(side.part.find('[') == std::string::npos, "matrix '", file,
                     "': ", side.called, " is '", side.part,
-                    "': an interval cuts elements of a mesh, of a matrix it must be a set of "
-                    "nodes");
+                    "': intervals are for meshes, a side of a matrix must be a set of nodes");
             require(taken != all.end(), "matrix '", file, "': ", side.called,
                     " names the set '", side.part,
                     "', which the matrix's deck or file does "

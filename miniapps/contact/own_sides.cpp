@@ -65,8 +65,8 @@ void require_side_free(const JointCase &joint, const JointCase::Face &face,
    require(!all_held || line.size() == 0, called(joint, face, side),
            " is held in all components by supports of the body (",
            joint.bodies[side.body].support,
-           "): nothing of it can slip or open, it must be the part that touches, or stand as a "
-           "rigid obstacle without this body");
+           "), so that it can neither slip nor open: name the part that touches, or replace "
+           "this body by a rigid obstacle");
 }
 
 } // namespace
@@ -82,8 +82,8 @@ void require_own_meshes(const JointCase &joint)
       require(one.mesh != other.mesh || one.part != other.part || one.split != other.split,
               "interface '", face.name, "': bodies ", one.name, " and ", other.name,
               " are the same mesh '", one.mesh,
-              "' at the same place, they overlap wholly: each must have a mesh of its own, "
-              "where it lies (in a deck another 'part')");
+              "' at the same place, so that they overlap wholly: give each a mesh at its own "
+              "place (in a deck another 'part')");
    }
 }
 

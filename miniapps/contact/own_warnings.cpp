@@ -21,7 +21,7 @@ void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
       warn(bolt.source.called("direction") + " points from " +
            joint.bodies[bolt.ends[0].body].name + " to " +
            joint.bodies[bolt.ends[1].body].name +
-           ": the shank would push them apart, its direction must be the opposite one");
+           ": the shank would push them apart, must point the other way");
    }
    const double off = std::abs(along[0] * apart[1] - along[1] * apart[0]);
    if (off > 0.05 * apart.norm())

@@ -109,7 +109,7 @@ std::vector<Index> patterns_of(const std::string &names, const ReducedProblem &p
       found.push_back(k);
    }
    require(found.size() > 1, "option --choose is '", names,
-           "', must be two loads at least, separated by semicolons: their sum stays");
+           "', must be at least two loads, separated by semicolons, whose sum stays the same");
    return found;
 }
 
@@ -151,7 +151,7 @@ DesignVariables choose_coat(DesignProblem &design, const DesignChoice &choice)
    require(choice.coat.size() == 2, "option --coat has ", choice.coat.size(),
            " numbers, must be the least friction and the most");
    require(choice.coat[0] < choice.coat[1], "option --coat is from ", choice.coat[0], " to ",
-           choice.coat[1], ", must be the least friction and the most, which is above it");
+           choice.coat[1], ", must be the least friction and the most, in this order");
    const std::vector<Line> lines = lines_of(problem);
    const auto zones = static_cast<Index>(choice.zones),
               count = zones * static_cast<Index>(lines.size());
@@ -235,8 +235,8 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
 {
    if (choice.profile == "rounded")
    {
-      require(std::isnan(choice.curvature),
-              "option --curvature: of a rounded profile --most is the limit of 1/R");
+      require(std::isnan(choice.curvature), "option --curvature cannot be used with a rounded "
+                                            "profile, where --most is the limit of 1/R");
       return choose_rounded(design, choice);
    }
    const ReducedProblem &given = design.problem;

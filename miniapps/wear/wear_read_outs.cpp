@@ -34,9 +34,9 @@ void warn_of_depth(const ReducedProblem &problem, const VectorXd &depth,
          to = std::max(to, problem.arc_length[i]);
       }
       if (most <= 0.1 * (to - from)) { return; }
-      warn(text("the largest depth, %.3g, is not small against what touches or is "
-                "worn, %.3g long: the stiffness is that of the unworn bodies. Where "
-                "the problem's units are scaled (E = 1) both have to be scaled back",
+      warn(text("the largest depth, %.3g, is not small against the length that touches or is "
+                "worn, %.3g, but the stiffness is that of the unworn bodies. If the units are "
+                "scaled (E = 1), scale both back before you compare them",
                 most, to - from));
    }
 }
@@ -104,7 +104,7 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    {
       study.value("final_volume", 0, "volume worn off");
       study.value("final_depth", 0, "largest depth");
-      return study.say("   nothing slips in a cycle, and nothing wears");
+      return study.say("   no node slips in a cycle, so nothing wears");
    }
    const ReducedProblem &problem = scene.problem;
    const VectorXd p = tractions(problem, end.contact.p);

@@ -102,7 +102,7 @@ ROW = "--reduced problems/lap_joint.json --history 'T=0; T=0.02' "
     ("--profile rounded --curvature 1", "--most is the limit of 1/R"),
     ("--lines 4", "--lines does nothing in this run: it is not of a free profile"),
     ("--goal energy", "needs a cycle"),
-    (ROW + "--choose T", "must be two loads at least"),
+    (ROW + "--choose T", "must be at least two loads"),
     (ROW + "--choose 'T; T'", "names 'T' twice"),
     (ROW + "--choose 'T; U'", "'U'"),
     ("--reduced problems/lap_joint.json --history 'T=0; T=-1' --choose 'T; bolt 1, w = 1'", "must not be negative"),

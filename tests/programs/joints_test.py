@@ -281,7 +281,7 @@ def test_of_matrices_without_elements_take_an_order(run):
               + "set BOTTOM 1 2\nset TOP 3 4\nset LEFT 1 4\n")
     keys = {"history": ["P=0", "P=1"], "bodies": {"own": {"matrix": "own.mtx", "support": "LEFT:x", "load": ["P traction TOP 0 -3"]}},
             "interfaces": {"floor": {"between": ["own:BOTTOM"]}}}
-    assert "its elements are not known: key 'bodies.own.order' must say" in run.refused(keys)
+    assert "its elements are not known, so key 'bodies.own.order' must give" in run.refused(keys)
     got = run.case(changed(keys, {"bodies.own.order": 1}), "--csv", run.folder / "own")
     near(got.interface("floor")["normal"], 6, 1e-12)
     near_all(run.columns("own_nodes.csv")["p"], 3, 1e-12)
@@ -465,7 +465,7 @@ def test_warn_of_what_is_not_meant(run):
     bolt = pushed["bolts"][0]
     near(bolt["least"], (40 - 10 * 0.005) / 1.005, 1e-10)
     assert bolt["least"] == bolt["most"]
-    assert "bolt 'bolt' pushes its ends apart, by up to 0.0497" in pushed.warned()
+    assert "bolt 'bolt' is compressed, by up to 0.0497" in pushed.warned()
     assert "load 'Z' is zero throughout the history" in pushed.warned()
     assert "no node opposite" not in pushed.output
     keys["history"] = ["F=0", "bolt=1", "Z=1 F=1", "F=0 Z=0"]

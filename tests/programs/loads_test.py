@@ -280,7 +280,7 @@ def test_an_indenter_under_a_force(run):
         face_ = got.interface("face")
         near(face_["moment"] + face_["about_x"] * face_["force_y"] - (face_["about_y"] - 10) * face_["force_x"], 0, 1e-8)
         near(face_["force_x"], 1, 1e-9)
-    for changes, said in (({"interfaces.face.guide.centre": None, "interfaces.face.guide.rotation": "free"}, "must have the centre"),
+    for changes, said in (({"interfaces.face.guide.centre": None, "interfaces.face.guide.rotation": "free"}, "must have the key centre"),
                           ({"interfaces.face.motion": {"D": {"y": 1}}}, "goes without the key motion"),
                           ({"interfaces.face.guide.y": {"force": "P", "displacement": "D"}}, "must have one of the keys force and displacement")):
         assert said in run.refused(changed(rolled, changes))

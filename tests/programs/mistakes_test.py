@@ -37,8 +37,8 @@ CHANGES = {
     # One mesh for two bodies.
     "one mesh twice": (
         {"bodies.base.mesh": "pad.mesh", "bodies.base.support": "3:xy", "interfaces.face.between": ["pad:1", "base:3"]},
-        ["interface 'face': bodies pad and base are the same mesh '", "pad.mesh' at the same place, they overlap wholly",
-         "each must have a mesh of its own"],
+        ["interface 'face': bodies pad and base are the same mesh '", "pad.mesh' at the same place, so that they overlap wholly",
+         "give each a mesh at its own place"],
     ),
     "what nothing holds": ({"bodies.base.support": None}, ["load pattern 'P' pushes body 'pad' and body 'base'", "support one of them"]),
     "a part that there is not": (

@@ -102,7 +102,7 @@ def test_files_are_checked_before_the_work(run):
     # What would write over a table of the run, or write nothing.
     run.refuses("hertz", ["--csv", run.folder / "t", "--save", run.folder / "t_pressure.csv"], ["option --save", "t_pressure.csv", "tables of option --csv"])
     run.refuses("fretting", ["--save", run.folder / "none.json"], ["--save", "no reduced problem"])
-    run.refuses("hertz", ["--check", "--save", run.folder / "none.json"], ["--save", "--check stops before"])
+    run.refuses("hertz", ["--check", "--save", run.folder / "none.json"], ["--save", "cannot be used with --check"])
 
 
 def test_every_study_takes_a_case_file(run):

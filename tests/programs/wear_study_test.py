@@ -85,7 +85,7 @@ def test_nothing_wears_where_nothing_slips(run, least):
         assert got[none] == 0, none
     assert got["worn_out"] == "converged"
     assert got["explicit_limit"] is None
-    assert "nothing slips in a cycle, and nothing wears" in got.output
+    assert "no node slips in a cycle, so nothing wears" in got.output
 
 
 def test_a_cycle_of_the_worn_out_contact_loses_nothing(run):
