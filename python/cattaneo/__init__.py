@@ -31,6 +31,7 @@ from ._core import (
     CondensedBody as CondensedBody,
     ContactLine as ContactLine,
     ContactState as ContactState,
+    ContactSurface as ContactSurface,
     Counters as Counters,
     CriticalFriction as CriticalFriction,
     CycleRecord as CycleRecord,
@@ -64,6 +65,8 @@ from ._core import (
     condense as condense,
     conjugates as conjugates,
     critical_friction as critical_friction,
+    gaps_to_plane as gaps_to_plane,
+    gaps_to_sphere as gaps_to_sphere,
     hold as hold,
     joined as joined,
     load_contact_state as load_contact_state,
@@ -71,6 +74,7 @@ from ._core import (
     march as march,
     nodal_stiffness as nodal_stiffness,
     pair_lines as pair_lines,
+    pair_surfaces as pair_surfaces,
     read_heights as read_heights,
     read_stiffness as read_stiffness,
     reduce as reduce,
@@ -79,11 +83,11 @@ from ._core import (
     set_friction as set_friction,
     settled_states as settled_states,
     straight_line as straight_line,
+    version as _version,
     write_abaqus as write_abaqus,
     write_matrix_market as write_matrix_market,
     write_nastran as write_nastran,
     write_npz as write_npz,
-    version as _version,
 )
 
 from . import _core, _repr

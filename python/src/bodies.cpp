@@ -159,9 +159,16 @@ const std::string &load_name(const std::string &load)
    return load;
 }
 
-/// 1 and 2 for x and y, or r and z.
+/// 1 and 2 for x and y, or r and z; in space 3 for z.
 std::vector<int> directions(const NodalStiffness &body, const std::string &direction)
 {
+   if (body.formulation == Formulation::space)
+   {
+      choice(direction, "direction", {"x", "y", "z", "xy", "xz", "yz", "xyz"});
+      std::vector<int> all;
+      for (char letter : direction) { all.push_back(letter - 'x' + 1); }
+      return all;
+   }
    const bool plane = body.formulation == Formulation::plane;
    const std::size_t word = choice(direction, "direction",
                                    plane ? std::vector<std::string>{"x", "y", "xy"}
@@ -173,23 +180,36 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
           nb::handle fixed, const NamedNumbers &loads, const NamedNumbers &sets)
 {
    const int rows = static_cast<int>(body.K.rows());
-   const Eigen::MatrixXd at = matrix(places, "places", -1, 2);
-   const int nodes = static_cast<int>(at.rows());
-   require(nodes > 0, "places has shape (0, 2), must have a row for each node");
-   for (int node = 0; node < nodes; ++node) { body.places[node] = at.row(node); }
-   Eigen::MatrixXi row_of(nodes, 2);
+   const Eigen::MatrixXd at = matrix(places, "places");
+   const int nodes = static_cast<int>(at.rows()), dimension = static_cast<int>(at.cols());
+   require(nodes > 0 && (dimension == 2 || dimension == 3), "places has shape (", nodes, ", ",
+           dimension, "), must have a row of two or three coordinates for each node");
+   if (dimension == 3)
+   {
+      require(body.formulation == Formulation::plane, "places has three coordinates a node, ",
+              "which is no ", name(body.formulation), " body");
+      body.formulation = Formulation::space;
+   }
+   for (int node = 0; node < nodes; ++node)
+   {
+      body.places[node] = at.row(node).head(2);
+      if (dimension == 3) { body.z[node] = at(node, 2); }
+   }
+   Eigen::MatrixXi row_of(nodes, dimension);
    if (dofs.is_none())
    {
-      require(rows == 2 * nodes, "K has ", rows, " rows and places ", nodes,
-              " nodes: without dofs rows 2 i and 2 i + 1 are x and y of node i, there must be "
-              "twice as many rows as nodes");
-      for (int node = 0; node < nodes; ++node) { row_of.row(node) << 2 * node, 2 * node + 1; }
+      require(rows == dimension * nodes, "K has ", rows, " rows and places ", nodes,
+              " nodes: without dofs rows ", dimension,
+              " i and on are the directions of node i, "
+              "there must be ",
+              dimension, " times as many rows as nodes");
+      for (int row = 0; row < rows; ++row) { row_of(row / dimension, row % dimension) = row; }
    }
-   else { row_of = whole_matrix(dofs, "dofs", nodes, 2, -1, rows - 1); }
+   else { row_of = whole_matrix(dofs, "dofs", nodes, dimension, -1, rows - 1); }
    body.dofs.assign(rows, {-1, 0});
    for (int node = 0; node < nodes; ++node)
    {
-      for (int c : {0, 1})
+      for (int c = 0; c < dimension; ++c)
       {
          const int row = row_of(node, c);
          if (row < 0) { continue; }
@@ -209,7 +229,9 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
    body.body();
    if (!elements.is_none())
    {
-      body.edges = outer_edges(element_list(elements, nodes - 1), body.places);
+      const std::vector<NodalStiffness::Nodes> all = element_list(elements, nodes - 1);
+      if (dimension == 3) { body.faces = outer_faces(all); }
+      else { body.edges = outer_edges(all, body.places); }
    }
    if (!fixed.is_none())
    {
@@ -279,7 +301,7 @@ std::string brief(const NodalStiffness &body)
       text << " " << set << " (" << nodes.size() << ")";
    }
    if (body.sets.empty()) { text << " none"; }
-   text << (body.edges.empty() ? ", no elements known>" : ">");
+   text << (body.edges.empty() && body.faces.empty() ? ", no elements known>" : ">");
    return text.str();
 }
 
@@ -326,14 +348,17 @@ void bind_stiffness(nb::module_ &m)
          arg("loads") = nb::dict(), arg("sets") = nb::dict(), arg("supports_left_out") = false,
          arg("name") = "body",
          "K: symmetric, of all rows, supported ones among them, not eliminated (n rows).\n"
-         "places: (nodes, 2), x and y (r and z) of node 0, 1, ….\n"
+         "places: (nodes, 2), x and y (r and z) of node 0, 1, …; (nodes, 3) of a body in "
+         "space.\n"
          "dofs: (nodes, 2), rows of K of each node's two directions, -1: none. Left out: rows "
-         "2 i and 2 i + 1 are those of node i.\n"
+         "2 i and 2 i + 1 are those of node i. In space (nodes, 3).\n"
          "formulation: 'plane', or 'axisymmetric', where x is r and K is of the whole "
          "circumference.\n"
          "elements: (elements, 3, 4, 6, 7, 8 or 9) nodes, corners in order around it, then the "
          "middles of the sides; a list of such arrays if there are several kinds. They tell "
-         "outer edges, so that contact_line() takes nodes in any order.\n"
+         "outer edges, so that contact_line() takes nodes in any order. In space (elements, 4, "
+         "5, 6 or 8) corners of tetrahedra, pyramids, wedges and hexahedra, for "
+         "contact_surface().\n"
          "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name. "
          "name: what sentences call the body.\n"
          "supports_left_out: K resists motions that nothing here holds (springs to the ground, "
@@ -352,19 +377,23 @@ void bind_stiffness(nb::module_ &m)
          "places",
          [](const Self &self)
          {
-            Eigen::MatrixXd all(self.places.size(), 2);
+            Eigen::MatrixXd all(self.places.size(), dimension(self.formulation));
             Index k = 0;
-            for (const auto &[node, place] : self.places) { all.row(k++) = place; }
+            for (const auto &[node, place] : self.places)
+            {
+               all.row(k++) = self.place(node).head(all.cols());
+            }
             return array(std::move(all));
          },
-         "(nodes, 2), in the order of `nodes`")
+         "(nodes, 2), in space (nodes, 3), in the order of `nodes`")
       .def_prop_ro(
          "dofs",
          [](const Self &self)
          {
             std::map<int, Index> at;
             for (const auto &[node, place] : self.places) { at.emplace(node, at.size()); }
-            Eigen::MatrixXi rows = Eigen::MatrixXi::Constant(at.size(), 2, -1);
+            Eigen::MatrixXi rows =
+               Eigen::MatrixXi::Constant(at.size(), components(self.formulation), -1);
             for (std::size_t row = 0; row < self.dofs.size(); ++row)
             {
                rows(at.at(self.dofs[row].node), self.dofs[row].direction - 1) =
@@ -372,7 +401,8 @@ void bind_stiffness(nb::module_ &m)
             }
             return array<Integers>(std::move(rows));
          },
-         "(nodes, 2), rows of each node's directions in the order of `nodes`, -1: none")
+         "(nodes, 2), in space (nodes, 3), rows of each node's directions in the order of "
+         "`nodes`, -1: none")
       .def_prop_ro(
          "sets",
          [](const Self &self)
@@ -462,13 +492,20 @@ void bind_stiffness(nb::module_ &m)
          "add_traction",
          [](Self &self, const std::string &load, Nodes nodes, Numbers traction, int order)
          {
+            if (self.formulation == Formulation::space)
+            {
+               self.add_surface_traction(load_name(load), nodes_in(self, nodes),
+                                         vector(traction, "traction", 3));
+               return;
+            }
             self.add_traction(load_name(load), nodes_in(self, nodes),
                               vector(traction, "traction", 2), within(order, "order", 0, 8));
          },
          arg("load"), arg("nodes"), arg("traction"), arg("order") = 0,
-         "Adds a force per length, about an axis per area, to a load.\n\n"
+         "Adds a force per length, about an axis and in space per area, to a load.\n\n"
          "load: its name. nodes: of the part of the boundary, as contact_line() takes them. "
-         "traction: (x, y), about an axis (r, z), per unit multiplier. order: as "
+         "traction: (x, y), about an axis (r, z), in space (x, y, z), per unit multiplier. "
+         "order: as "
          "contact_line() has it.")
       .def(
          "add_supports",
@@ -494,6 +531,22 @@ void bind_stiffness(nb::module_ &m)
          "`nodes`.\n\norder 0: on outer edges all of whose nodes are "
          "among the given ones, in whatever order. order 1 to 8, where no elements are known: "
          "nodes in order, the body on their left, elements of that order through them.")
+      .def(
+         "contact_surface",
+         [](const Self &self, Nodes nodes)
+         {
+            const nb::object numpy = nb::module_::import_("numpy");
+            if (nb::isinstance<nb::str>(nodes) || integer(numpy.attr("ndim")(nodes)) != 2)
+            {
+               return self.contact_surface(nodes_in(self, nodes));
+            }
+            return self.contact_surface(element_list(nodes, most_rows));
+         },
+         arg("nodes"),
+         "The trace of a body in space.\n\n"
+         "nodes: the name of a set, numbers of nodes, or a mask over `nodes`: all outer faces "
+         "of elements whose nodes are among them. Or (faces, 3 or 4) nodes, the faces "
+         "themselves, where no elements are known.")
       .def("__repr__", &brief);
 
    m.def(
@@ -633,6 +686,72 @@ void bind_lines(nb::module_ &m)
       "8. formulation: 'plane', 'axisymmetric' or 'torsion'.");
 }
 
+void bind_surfaces(nb::module_ &m)
+{
+   using Self = ContactSurface;
+   nb::class_<Self>(
+      m, "ContactSurface",
+      "The trace of a body in space: its contact nodes and the faces between them.")
+      .def("__len__", &Self::size)
+      .def_prop_ro(
+         "positions", [](const Self &self) { return array(Eigen::MatrixXd(self.positions())); },
+         "(n, 3)")
+      .def_prop_ro(
+         "frames",
+         [](const Self &self)
+         {
+            Eigen::MatrixXd all(self.size(), 9);
+            for (Index i = 0; i < self.size(); ++i)
+            {
+               const Eigen::Matrix3d &frame = self.nodes[i].frame;
+               all.row(i) << frame.row(0), frame.row(1), frame.row(2);
+            }
+            return array(std::move(all));
+         },
+         "(n, 9): first tangent, second tangent, normal into the body of each node")
+      .def_prop_ro(
+         "normals",
+         [](const Self &self)
+         {
+            Eigen::MatrixXd all(self.size(), 3);
+            for (Index i = 0; i < self.size(); ++i) { all.row(i) = self.nodes[i].normal(); }
+            return array(std::move(all));
+         },
+         "(n, 3), into the body")
+      .def_prop_ro(
+         "weights", [](const Self &self) { return array(self.weights()); },
+         "consistent: they sum to the area")
+      .def_prop_ro(
+         "dofs",
+         [](const Self &self)
+         {
+            Eigen::MatrixXi all(self.size(), 3);
+            for (Index i = 0; i < self.size(); ++i)
+            {
+               const std::array<int, 3> &own = self.nodes[i].dofs;
+               all.row(i) << own[0], own[1], own[2];
+            }
+            return array<Integers>(std::move(all));
+         },
+         "(n, 3), rows of the stiffness")
+      .def_prop_ro(
+         "faces",
+         [](const Self &self)
+         {
+            std::vector<std::vector<int>> all;
+            for (const auto &face : self.faces) { all.emplace_back(face.begin(), face.end()); }
+            return all;
+         },
+         "numbers of the nodes of each face, three or four in their order around it")
+      .def("__repr__",
+           [](const Self &self)
+           {
+              return "<ContactSurface: " + std::to_string(self.size()) + " nodes, " +
+                     std::to_string(self.faces.size()) + " faces, area " +
+                     exact_text(self.weights().sum()) + ">";
+           });
+}
+
 void bind_condensed(nb::module_ &m)
 {
    using Self = CondensedBody;
@@ -641,8 +760,11 @@ void bind_condensed(nb::module_ &m)
                     "with u = {v; w} and f = {q; p} in the frames of its contact line.")
       .def_rw("name", &Self::name, "what sentences call it")
       .def_prop_ro(
-         "line", [](const Self &self) { return self.line; }, "a copy")
-      .def_prop_ro("S", viewed(&Self::S), "(2 n, 2 n), symmetric")
+         "line", [](const Self &self) { return self.line; }, "a copy; without nodes in space")
+      .def_prop_ro(
+         "surface", [](const Self &self) { return self.surface; },
+         "a copy; without nodes but in space")
+      .def_prop_ro("S", viewed(&Self::S), "(2 n, 2 n), in space (3 n, 3 n), symmetric")
       .def_prop_ro("H", viewed(&Self::H), "loads by loads with the contact clamped")
       .def_prop_ro(
          "held", [](const Self &self) { return array_of_indices(self.held); },
@@ -678,7 +800,7 @@ void bind_condensed(nb::module_ &m)
            {
               std::string loads;
               for (const LoadPattern &each : self.patterns) { loads += " " + each.name; }
-              return "<CondensedBody '" + self.name + "': " + std::to_string(self.line.size()) +
+              return "<CondensedBody '" + self.name + "': " + std::to_string(self.nodes()) +
                      " contact nodes, " + std::to_string(self.rigid_modes) +
                      " free rigid motions, loads:" + (loads.empty() ? " none" : loads) + ">";
            });
@@ -690,6 +812,7 @@ void bind_bodies(nb::module_ &m)
 {
    bind_stiffness(m);
    bind_lines(m);
+   bind_surfaces(m);
    bind_condensed(m);
 }
 

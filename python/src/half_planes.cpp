@@ -146,6 +146,21 @@ void bind_half_planes(nb::module_ &m)
       "order: order of these elements, 1 to 8. formulation: 'plane' or 'axisymmetric'.");
    m.def(
       "condense",
+      [](const NodalStiffness &body, const ContactSurface &surface)
+      {
+         const AssembledBody assembled = body.body();
+         const ContactSurface trace = surface;
+         const std::string gone =
+            assembled.grounded ? assembled.eliminated_warning() : std::string();
+         if (!gone.empty()) { warn("condense: " + gone); }
+         CondensedBody result = unlocked([&] { return condense(assembled, trace); });
+         result.name = body.name;
+         return warned(std::move(result));
+      },
+      arg("body"), arg("surface"),
+      "A body in space to the nodes of a surface, of body.contact_surface().");
+   m.def(
+      "condense",
       [](const HalfPlane &body, const ContactLine &line)
       {
          return warned(unlocked([half_plane = body, trace = line]

@@ -8,6 +8,7 @@
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/reduced/obstacle_shape.hpp>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -49,6 +50,10 @@ Reduction reduced_pair(const CondensedBody &body, const CondensedBody &other,
                        const Pairing *given)
 {
    if (given) { return reduce(body, other, *given); }
+   if (body.surface.size() > 0 && other.surface.size() > 0)
+   {
+      return reduce(body, other, pair_surfaces(body.surface, other.surface));
+   }
    const Pairing pairs = pair_lines(body.line, other.line);
    const auto knows_elements = [](const CondensedBody &of)
    {
@@ -101,6 +106,34 @@ void bind_reductions(nb::module_ &m)
       arg("line1"), arg("line2"), arg("tolerance") = 1e-6,
       "Pairs the nodes of line1 with those of line2 that face them, one to one. tolerance: "
       "largest offset along the tangent, in edge lengths.");
+
+   m.def(
+      "pair_surfaces",
+      [](const ContactSurface &surface1, const ContactSurface &surface2, double tolerance)
+      { return pair_surfaces(surface1, surface2, finite(tolerance, "tolerance")); },
+      arg("surface1"), arg("surface2"), arg("tolerance") = 1e-6,
+      "Pairs the nodes of surface1 with those of surface2 that face them, one to one. "
+      "tolerance: of the offset along the surface, in distances of nodes.");
+   m.def(
+      "gaps_to_plane",
+      [](const ContactSurface &surface, Numbers point, Numbers normal)
+      {
+         return array(
+            gaps_to_plane(surface, vector(point, "point", 3), vector(normal, "normal", 3)));
+      },
+      arg("surface"), arg("point"), arg("normal"),
+      "How far a plane through a point is from each node, along the node's normal. normal: of "
+      "any length and sense.");
+   m.def(
+      "gaps_to_sphere",
+      [](const ContactSurface &surface, Numbers centre, double radius)
+      {
+         return array(
+            gaps_to_sphere(surface, vector(centre, "centre", 3), finite(radius, "radius")));
+      },
+      arg("surface"), arg("centre"), arg("radius"),
+      "How far a sphere is from each node, along the node's normal. radius: negative for a "
+      "hollow.");
 
    nb::class_<Interface>(m, "Interface",
                          "Where two bodies may touch, or a body and a rigid obstacle, or two "
@@ -280,6 +313,16 @@ void bind_reductions(nb::module_ &m)
       "Two bodies whose nodes match, `body` on the `other`. If nodes are at the same places "
       "but elements differ, the bodies meet as at an interface. pairing: from pair_lines(); it "
       "is used whatever the elements, with a warning (OutcomeWarning) if they differ.");
+   m.def(
+      "reduce",
+      [](const CondensedBody &body, Numbers gap)
+      {
+         if (body.surface.size() == 0) { throw nb::next_overload(); }
+         return reduce(body, vector(gap, "gap", body.nodes()));
+      },
+      arg("body"), arg("gap"),
+      "A body in space on a rigid obstacle. gap: of each of its contact nodes, see "
+      "gaps_to_plane() and gaps_to_sphere().");
    m.def(
       "reduce",
       [](const Bodies &bodies, const std::vector<Interface> &interfaces,
