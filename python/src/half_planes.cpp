@@ -158,7 +158,7 @@ void bind_half_planes(nb::module_ &m)
          return warned(std::move(result));
       },
       arg("body"), arg("surface"),
-      "A body in space to the nodes of a surface, of body.contact_surface().");
+      "A body in space to the nodes of a surface.\n\nsurface: of body.contact_surface().");
    m.def(
       "condense",
       [](const HalfPlane &body, const ContactLine &line)

@@ -122,8 +122,8 @@ void bind_reductions(nb::module_ &m)
             gaps_to_plane(surface, vector(point, "point", 3), vector(normal, "normal", 3)));
       },
       arg("surface"), arg("point"), arg("normal"),
-      "How far a plane through a point is from each node, along the node's normal. normal: of "
-      "any length and sense.");
+      "How far a plane is from each node of a surface, along the node's normal.\n\nsurface: of "
+      "a body. point: of the plane. normal: of any length and sense.");
    m.def(
       "gaps_to_sphere",
       [](const ContactSurface &surface, Numbers centre, double radius)
@@ -132,8 +132,9 @@ void bind_reductions(nb::module_ &m)
             gaps_to_sphere(surface, vector(centre, "centre", 3), finite(radius, "radius")));
       },
       arg("surface"), arg("centre"), arg("radius"),
-      "How far a sphere is from each node, along the node's normal. radius: negative for a "
-      "hollow.");
+      "How far a sphere is from each node of a surface, along the node's normal.\n\nsurface: "
+      "of "
+      "a body. centre: of the sphere. radius: negative for a hollow.");
 
    nb::class_<Interface>(m, "Interface",
                          "Where two bodies may touch, or a body and a rigid obstacle, or two "
@@ -250,6 +251,21 @@ void bind_reductions(nb::module_ &m)
          arg("state"),
          "Nodal forces {q; p} that tied interfaces transfer in a state of `problem`: all "
          "tangential ones first, of the interfaces' nodes in the order of `interfaces`.")
+      .def(
+         "contact_forces",
+         [](const Self &self, int body, const ContactState &state)
+         {
+            state.validate(self.problem);
+            within(body, "body", 0, static_cast<int>(self.bodies.size()) - 1);
+            return array(self.contact_forces(
+               body, state.q, state.p, self.tied_forces(state.v, state.w, state.multipliers)));
+         },
+         arg("body"), arg("state"),
+         "(nodes, 2), in space (nodes, 3): forces along x, y and z that contact and ties put "
+         "on "
+         "the nodes of a body's contact line or surface, in its order.\n\nbody: its number, "
+         "from "
+         "0. state: of `problem`.")
       .def(
          "warnings",
          [](const Self &self, const ContactState &state)
