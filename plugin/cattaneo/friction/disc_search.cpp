@@ -25,6 +25,20 @@ Search active_set_in_the_disc(Increment &at)
    return Search::not_here;
 }
 
+bool ends_from_natural_states(Increment &at)
+{
+   for (Index i = 0; i < at.system.n; ++i)
+   {
+      const ContactNode node = at.node(i);
+      at.status[i] = natural_state(node);
+      if (at.status[i] == NodeState::slip)
+      {
+         at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
+      }
+   }
+   return polished(at) && !may_slide(at);
+}
+
 namespace
 {
 
@@ -106,17 +120,17 @@ bool descend(Increment &at)
 
 /// From the present displacements, from those at the start of the increment, and from random
 /// ones ever further away, in units of what the loads do to a node alone: as many as so many
-/// operations allow (3e9: a second or two). The generator is seeded afresh, so that equal
+/// operations allow (a second or two). The generator is seeded afresh, so that equal
 /// increments start alike.
 Search damped_newton(Increment &at)
 {
    FrictionSystem &s = at.system;
    // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
-   const double operations = moves_away(at) ? 2e8 : 3e9;
+   const double operations = moves_away(at) ? 2e8 : search_operations;
    const VectorXd u_old = at.start.displacements();
    const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();
    const Index starts = std::clamp<Index>(4000000 / (s.n * s.n * s.n), 2, 1000);
-   const double N = static_cast<double>(s.K.rows()), step = N * N * (N + 40) + 5e4;
+   const double step = disc_step_operations(static_cast<double>(s.K.rows()));
    const long first_step = s.counters.newton_steps;
    std::mt19937_64 random(1);
    for (Index start = 0; start < starts; ++start)
@@ -132,16 +146,7 @@ Search damped_newton(Increment &at)
          at.u[k] += size * far[k] * (std::ldexp(double(random() >> 11), -52) - 1);
       }
       if (!descend(at)) { continue; }
-      for (Index i = 0; i < s.n; ++i)
-      {
-         const ContactNode node = at.node(i);
-         at.status[i] = natural_state(node);
-         if (at.status[i] == NodeState::slip)
-         {
-            at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
-         }
-      }
-      if (polished(at) && !may_slide(at)) { return Search::found; }
+      if (ends_from_natural_states(at)) { return Search::found; }
    }
    return Search::not_here;
 }

@@ -59,7 +59,9 @@ const std::vector<Method> in_the_disc = {
    // Nearly every increment.
    {"active set", active_set_in_the_disc, false},
    springs,
-   // Strong coupling, nodes at one place, nearly singular stiffness.
+   // Strong coupling, friction above critical, nodes at one place, nearly singular stiffness.
+   {"growing friction", growing_friction, true},
+   // A few of the same families, and free bodies.
    {"damped Newton", damped_newton, true}};
 
 bool find_end(Increment &at, bool thorough = true)

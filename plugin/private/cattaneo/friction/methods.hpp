@@ -40,9 +40,23 @@ Search lemke_from_afar(Increment &at);
 
 /// Two tangents: Newton from the start itself, then after sweeps, more before each attempt.
 Search active_set_in_the_disc(Increment &at);
+/// Two tangents, where nothing can move freely: follows the solutions with a share of friction,
+/// and with rounded laws, from no friction to all of it.
+Search growing_friction(Increment &at);
 /// Two tangents: Newton's method on the natural map with a line search, from where the sweeps
 /// ended, from the start of the increment, and from random places about it.
 Search damped_newton(Increment &at);
+
+/// Two tangents: Newton's steps from the states in which the natural map has the nodes. An
+/// answer that may be a free body that slides away does not count (may_slide()).
+bool ends_from_natural_states(Increment &at);
+/// Operations of one of Newton's steps with N displacements, and how many of them a search of
+/// an increment with two tangents may take: a second or two.
+inline double disc_step_operations(double N)
+{
+   return N * N * (N + 40) + 5e4;
+}
+constexpr double search_operations = 3e9;
 
 /// Uses only the methods before the weak springs, which suffice if something holds the bodies.
 bool find_end_quickly(Increment &at);
