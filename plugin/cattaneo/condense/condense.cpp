@@ -229,7 +229,7 @@ void require_in_place(const Trace &trace, const DofPlaces &places)
 /** A body whose blocks move: those of its solver are held, at d. With the forces of clamped
     loads F of all, the blocks' motions among them, and H by the same,
 
-       d = H_dd⁻¹ (V λ - F_dᵀ u - H_dl λ),
+       d = H_dd⁻¹ (V ℓ - F_dᵀ u - H_dl ℓ),
 
     V the force of each load on each block. */
 class BlockSolver : public BodySolver
@@ -237,7 +237,7 @@ class BlockSolver : public BodySolver
 public:
    std::shared_ptr<const BodySolver> held;
    Eigen::MatrixXd S, motions;          ///< of the body whose blocks are held
-   Eigen::MatrixXd by_contact, by_load; ///< d = by_contact u + by_load λ
+   Eigen::MatrixXd by_contact, by_load; ///< d = by_contact u + by_load ℓ
 
    Eigen::VectorXd recover(const Eigen::VectorXd &contact, const Eigen::VectorXd &multipliers,
                            Counters &counters) const override

@@ -25,7 +25,7 @@ public:
                         Counters &counters) const = 0;
 };
 
-/** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local
+/** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ ℓ_k f_k, in the local
     frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
 
     In a torsion body u = v = u_θ and f = q are circumferential, positive in the direction of

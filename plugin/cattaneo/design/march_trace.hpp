@@ -7,8 +7,8 @@
 namespace cattaneo
 {
 
-/// A state of a march, and the origin of its loads. With λ_k the loads of point k of the
-/// history, those of the state are λ_point + share (λ_point+1 - λ_point).
+/// A state of a march, and the origin of its loads. With ℓ_k the loads of point k of the
+/// history, those of the state are ℓ_point + share (ℓ_point+1 - ℓ_point).
 struct TracedState
 {
    ContactState state; ///< as the march left it

@@ -95,7 +95,7 @@ public:
    void add_forces(const std::string &pattern, const mfem::LinearForm &form);
    /** An isotropic strain that the material takes without stress, such as α ΔT: the pattern
        gets the forces ∫ σ₀ : ε(v), σ₀ = D ε₀, at the points where the stiffness is integrated,
-       and stresses are D (ε - λ ε₀), λ the pattern's multiplier. In plane strain and
+       and stresses are D (ε - ℓ ε₀), ℓ the pattern's multiplier. In plane strain and
        axisymmetry it is a strain in all three directions. Asked again by stress_at: a
        coefficient must outlive the body. InputError for a user's operator and for torsion. */
    void add_initial_strain(const std::string &pattern, const Field &strain);

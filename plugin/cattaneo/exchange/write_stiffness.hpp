@@ -19,7 +19,7 @@ void write_npz(const std::string &file, const std::map<std::string, Eigen::Matri
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M = {});
 
-/** A reduced problem {q;p} = K {v;w} + Σ λ_k f_k: `K`, `loads` (a column f_k each), `H`, `gap`,
+/** A reduced problem {q;p} = K {v;w} + Σ ℓ_k f_k: `K`, `loads` (a column f_k each), `H`, `gap`,
     `friction`, `weights`, `position`, and `M` if it is given, of the same rows. */
 void write_npz(const std::string &file, const ReducedProblem &problem,
                const Eigen::MatrixXd &M = {});

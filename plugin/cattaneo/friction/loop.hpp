@@ -8,11 +8,11 @@ namespace cattaneo
 
 struct ContactState;
 
-/** Conjugates of the multipliers λ_k of all load patterns in a state (size: patterns), which do
+/** Conjugates of the multipliers ℓ_k of all load patterns in a state (size: patterns), which do
     work with them:
 
-       the displacement of the place where a force acts   d_k = Σ_l H_kl λ_l - F_kᵀ u,
-       the reaction of a prescribed displacement          r_k = Σ_l H_kl λ_l + F_kᵀ u,
+       the displacement of the place where a force acts   d_k = Σ_j H_kj ℓ_j - F_kᵀ u,
+       the reaction of a prescribed displacement          r_k = Σ_j H_kj ℓ_j + F_kᵀ u,
 
     with u = {v; w} the displacements of the contact, F_k = {q_k; p_k} the pattern's forces, and
     H the response of the bodies with their contact clamped (ReducedProblem::H). Their unit is

@@ -213,9 +213,9 @@ VectorXd stretched(const CondensedBody &body, const HalfPlane &half_plane)
     take it, by translations y along the motions R. With u₀ the displacements under the bulk
     stresses the energy is
 
-       ½ (u - R y - u₀ λ)ᵀ S (u - R y - u₀ λ) - λᵀ Fᵀ y,
+       ½ (u - R y - u₀ ℓ)ᵀ S (u - R y - u₀ ℓ) - ℓᵀ Fᵀ y,
 
-    which its least value over y leaves in u and λ alone. */
+    which its least value over y leaves in u and ℓ alone. */
 void add_loads(CondensedBody &body, const HalfPlane &half_plane)
 {
    const bool plane = body.line.formulation == Formulation::plane;

@@ -114,7 +114,7 @@ ChordalError chordal_error(const Reduction &reduction, const Eigen::VectorXd &p,
     body in the frames of its line, one body after the other. u = {v; w} are the relative
     displacements of the contact nodes, in the order of reduce() for nodes that do not match.
 
-       K U + Σ λ_k f_k = Lᵀ {q; p},    u = L U */
+       K U + Σ ℓ_k f_k = Lᵀ {q; p},    u = L U */
 struct SeparateBodies
 {
    Eigen::MatrixXd K; ///< the bodies' S, one block each

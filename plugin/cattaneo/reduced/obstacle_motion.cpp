@@ -152,7 +152,7 @@ void Reduction::add_obstacle_motion(const std::string &name,
    const std::string where = named_pattern(problem, name, Control::displacement);
    const Index n = problem.nodes(), m = problem.slips();
    const VectorXd d = displaced(where, motions);
-   // The body moves by u + λ d: f = K (u + λ d) + …, and the reaction is dᵀ f.
+   // The body moves by u + ℓ d: f = K (u + ℓ d) + …, and the reaction is dᵀ f.
    const Eigen::VectorXd f = problem.K * d;
    const auto k = static_cast<Eigen::Index>(problem.patterns.size());
    // What is not known of the other loads stays so.
@@ -178,11 +178,11 @@ void Reduction::add_obstacle_motion(const std::string &name,
 }
 
 /* Obstacles that move by D y under the forces F take U = u + D y of the bodies, and the forces
-   f = K U + Σ λ_k f_k of the contact on these. They are in equilibrium where Dᵀ f = F, that is
+   f = K U + Σ ℓ_k f_k of the contact on these. They are in equilibrium where Dᵀ f = F, that is
 
-      y = M⁻¹ (F - Dᵀ K u - Σ λ_k Dᵀ f_k),    M = Dᵀ K D,
+      y = M⁻¹ (F - Dᵀ K u - Σ ℓ_k Dᵀ f_k),    M = Dᵀ K D,
 
-   which is put in for y in f and in the conjugates g_k = H_k λ ∓ f_kᵀ U. */
+   which is put in for y in f and in the conjugates g_k = H_k ℓ ∓ f_kᵀ U. */
 void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
 {
    require(!motions.empty() && free_motions_.size() == 0 && obstacle_.size() == 0,

@@ -50,11 +50,11 @@ struct FrictionLaw
 
 /** The narrow waist: a frictional contact problem reduced to its n contact nodes.
 
-       q = A v + Bᵀ w + Σ λ_k q_k         (thesis 3.25)
-       p = B v + C  w + Σ λ_k p_k
+       q = A v + Bᵀ w + Σ ℓ_k q_k         (thesis 3.25)
+       p = B v + C  w + Σ ℓ_k p_k
 
     v is the relative tangential displacement (slip), w the relative normal displacement (w > 0
-    opens), q and p the *nodal* tangential and normal forces (p > 0 is compression), λ_k the
+    opens), q and p the *nodal* tangential and normal forces (p > 0 is compression), ℓ_k the
     multiplier of load pattern k. Per unit thickness in the plane; forces over the full
     circumference in axisymmetry.
 
@@ -74,7 +74,7 @@ struct ReducedProblem
 
    /// Conjugates of the loads by the loads with the contact nodes clamped (u = {v; w} = 0), in
    /// the order of the patterns. The conjugate of pattern k (displacement of a force, reaction
-   /// of a prescribed displacement) is g = H λ ∓ F_kᵀ u, minus for force control, see
+   /// of a prescribed displacement) is g = H ℓ ∓ F_kᵀ u, minus for force control, see
    /// conjugates(). Nothing else depends on H. No rows: H is not known.
    Eigen::MatrixXd H;
 
@@ -143,7 +143,7 @@ struct ReducedProblem
    /// InputError for a name that no pattern has.
    Eigen::VectorXd multipliers(const NamedLoads &loads) const;
 
-   /// f^w = Σ λ_k {q_k; p_k}, size (c+1)·n.
+   /// f^w = Σ ℓ_k {q_k; p_k}, size (c+1)·n.
    Eigen::VectorXd clamped_forces(const Eigen::VectorXd &multipliers) const;
 
    /// Sets K from its blocks, and the rigid motions, which are known. Gap and friction become

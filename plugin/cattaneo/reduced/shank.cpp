@@ -10,9 +10,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /* The forces N of the pattern {q_N; p_N} = F act in f = K u + F N + …, and their conjugate is
-   g = H_N· λ - Fᵀ u. With N = T - s g, that is N/s + g = T/s, they are
+   g = H_N· ℓ - Fᵀ u. With N = T - s g, that is N/s + g = T/s, they are
 
-      N = (T/s + Fᵀ u - Σ H_Nj λ_j) / h,    h = H_NN + 1/s,
+      N = (T/s + Fᵀ u - Σ H_Nj ℓ_j) / h,    h = H_NN + 1/s,
 
    the sum over the other patterns, and are put in wherever N stands. */
 void Reduction::add_shank(const std::string &pattern, double stiffness)

@@ -83,8 +83,8 @@ Stiffness stiffness(const std::vector<CondensedBody> &bodies, const RelativeDisp
    return K;
 }
 
-/** The energies' minimum over y, ½ {u; y}ᵀ EᵀSE {u; y} + λᵀFᵀE {u; y}, where a common rigid
-    motion Y of the bodies is at rest in the mean, Yᵀ E {u; y} = 0. With z = {u; λ} and V the
+/** The energies' minimum over y, ½ {u; y}ᵀ EᵀSE {u; y} + ℓᵀFᵀE {u; y}, where a common rigid
+    motion Y of the bodies is at rest in the mean, Yᵀ E {u; y} = 0. With z = {u; ℓ} and V the
     forces on y of z, y = -K⁻¹(V z + Bᵀ μ): a Cholesky factor of K (with springs on Y, which
     nothing else resists), and borders B for the constraint. */
 class Minimum
@@ -382,7 +382,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
            " can move without resistance even if every contact node is closed and sticks: "
            "give the contact more nodes, or support a body");
 
-   // With K = L Lᵀ and W = L⁻¹ V the minimum takes WᵀW from the energy of {u; λ}.
+   // With K = L Lᵀ and W = L⁻¹ V the minimum takes WᵀW from the energy of {u; ℓ}.
    const auto of_u = K.yu.leftCols(m), of_loads = K.yu.rightCols(count);
    MatrixXd S = minus_square(std::move(K.uu), of_u), f = EF.topRows(m),
             together = transposed_product(of_loads, of_loads);
@@ -410,7 +410,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       add_product(f, Q, work - transposed_product(Q, f));
    }
 
-   // Where loads move contact nodes by g the free components take u - λ g: forces grow by -S g,
+   // Where loads move contact nodes by g the free components take u - ℓ g: forces grow by -S g,
    // and what a load does work on by -g, if it is one of these.
    const MatrixXd moved = moved_contacts(bodies, rows, index, count);
    if (moved.size() > 0)

@@ -16,7 +16,7 @@ struct UnionRows
    std::vector<int> free, tied; ///< numbers of rows
 };
 
-/// Bodies on relative displacements: f = S u + Σ λ_k f_k.
+/// Bodies on relative displacements: f = S u + Σ ℓ_k f_k.
 struct Block
 {
    Eigen::MatrixXd S, f, H;
