@@ -10,7 +10,7 @@ namespace cattaneo
 
 struct ThinQR
 {
-   Eigen::MatrixXd Q; ///< orthonormal columns, as many as the matrix has of what it has less
+   Eigen::MatrixXd Q; ///< orthonormal columns, as many as the smaller of rows and columns
    Eigen::MatrixXd R; ///< upper triangular, or trapezoidal
 };
 ThinQR thin_qr(const Eigen::MatrixXd &matrix);

@@ -13,8 +13,8 @@ public:
    /// Replaces the factor; only the lower triangle is read. False if M is not positive
    /// definite.
    bool compute(Eigen::MatrixXd matrix);
-   /// Smallest square of L's diagonal. Each is the energy of an unknown while those before it
-   /// are free.
+   /// Smallest square of L's diagonal. Each square is the energy of a unit displacement of an
+   /// unknown while those before it are free.
    double smallest_pivot() const;
    /// x <- M⁻¹ x
    void solve(Eigen::VectorXd &x) const;

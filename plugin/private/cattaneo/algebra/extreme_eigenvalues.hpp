@@ -9,7 +9,7 @@ namespace cattaneo
 
 /// An upper bound of the largest eigenvalue of a symmetric positive semidefinite M, of which
 /// the lower triangle is read. A Cholesky factor of bound - M proves it, apart from the
-/// round-off of that factor, which is also about the distance of the bound from the eigenvalue.
+/// round-off of that factor. The bound is above the eigenvalue by about this round-off.
 double largest_eigenvalue(const Eigen::MatrixXd &M);
 
 /// A lower bound of the smallest eigenvalue, likewise; 0 if M is not positive definite.

@@ -16,7 +16,7 @@ struct LobattoBasis
 
    explicit LobattoBasis(int order);
    void evaluate(double t, Eigen::Ref<Eigen::VectorXd> values) const;
-   /// Values of all polynomials (columns) at each t (rows).
+   /// Values of all polynomials (columns) at each parameter t (rows).
    Eigen::MatrixXd values(const Eigen::VectorXd &t) const;
 };
 

@@ -7,9 +7,9 @@ namespace cattaneo
 {
 
 /** Minimise f(x) under low ≤ x ≤ high and least ≤ c(x) ≤ most, in Ipopt's form. Second
-    derivatives are those of f + λ·c. Matrices are sparse: Ipopt calls once with `values` null
-    for the places, and afterwards for the values in the same order. A function returns false if
-    it has no value at x. */
+    derivatives are those of f + λ·c. Matrices are sparse: Ipopt first calls with `values` null,
+    to get the places of the entries, and afterwards to get their values in the same order. A
+    function returns false if it has no value at x. */
 class NonlinearProgramme
 {
 public:
@@ -17,7 +17,7 @@ public:
    {
       Eigen::Index variables = 0, conditions = 0, jacobian = 0, hessian = 0;
    };
-   /// Bounds of 2e19 and more are none.
+   /// Bounds of 2e19 and more count as infinite.
    struct Bounds
    {
       Eigen::VectorXd low, high, least, most;
@@ -38,25 +38,26 @@ public:
    {
       return true;
    }
-   /// Asked in every iteration.
+   /// Called in every iteration.
    virtual bool goes_on(int) const { return true; }
 };
 
-/// What a programme is known to be, for the method to use.
+/// Known properties of a programme, which the method may use.
 struct ProgrammeSettings
 {
    double tolerance = 1e-8; ///< of all conditions of optimality
    int max_iterations = 300;
    bool second_derivatives = true; ///< or estimates from the steps
    bool linear_equations = false;  ///< derivatives of equations are constant
-   bool linear = false;            ///< those of all conditions are, and there are no others
-   bool convex = false;            ///< needs no safeguard of the barrier parameter
+   bool linear =
+      false; ///< derivatives of all conditions are constant, and all conditions are equations
+   bool convex = false; ///< needs no safeguard of the barrier parameter
 };
 
 enum class ProgrammeOutcome
 {
    solved,
-   infeasible, ///< no point was found that holds all conditions
+   infeasible, ///< no point was found that meets all conditions
    failed,
    stopped,
    unavailable ///< built without Ipopt

@@ -21,10 +21,10 @@ void add_product(Eigen::Ref<Eigen::MatrixXd> C, const Eigen::Ref<const Eigen::Ma
 void add_square(Eigen::Ref<Eigen::MatrixXd> S, const Eigen::Ref<const Eigen::MatrixXd> &A,
                 double factor = 1);
 
-/// Rows of M in the given order; those of -1 are zero.
+/// Rows of M in the given order; -1 gives a row of zeros.
 Eigen::MatrixXd rows_of(const Eigen::Ref<const Eigen::MatrixXd> &M,
                         const std::vector<int> &rows);
-/// Rows and columns of M in the given order; those of -1 are zero.
+/// Rows and columns of M in the given order; -1 gives zeros.
 Eigen::MatrixXd block_of(const Eigen::Ref<const Eigen::MatrixXd> &M,
                          const std::vector<int> &rows, const std::vector<int> &columns);
 

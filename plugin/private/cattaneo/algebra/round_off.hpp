@@ -16,7 +16,8 @@ public:
    /// `size`: bound of |u| entry by entry; f: forces with u = 0.
    Eigen::VectorXd rows(const Eigen::VectorXd &size, const Eigen::VectorXd &f) const;
 
-   /// An upper bound for all rows, without reading K. u is the vector itself, f as above.
+   /// An upper bound for all rows, without reading K. u is the vector itself (not its bound), f
+   /// as above.
    double most(const Eigen::VectorXd &u, const Eigen::VectorXd &f) const;
 
 private:
@@ -25,8 +26,8 @@ private:
    const Eigen::Ref<const Eigen::MatrixXd> K_;
    double norm_ = 0;
    bool graded_ = false;
-   /// |K| over its norm, in single precision: an estimate needs few digits. Of a stiffness that
-   /// is not large, made when first needed.
+   /// |K| over its norm, in single precision: an estimate needs few digits. Made when first
+   /// needed, and only if K is not large.
    mutable Eigen::MatrixXf sizes_;
 };
 

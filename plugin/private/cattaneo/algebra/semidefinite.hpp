@@ -12,11 +12,10 @@ public:
    /// null_space: orthonormal columns, none if A is definite.
    SemidefiniteSolver(const Eigen::MatrixXd &A, const Eigen::MatrixXd &null_space);
 
-   /// False if A is not semidefinite, or resists nothing else than the null space as well.
+   /// False if A is not semidefinite, or if it has null vectors beside the given null space.
    bool definite() const;
-   /// x with A x = rhs, for a rhs orthogonal to the null space; diag(A) times that is left
-   /// out. Of all such x the one that is orthogonal to the null space where every row counts
-   /// with its diagonal entry.
+   /// x with A x = rhs, for a rhs orthogonal to the null space N; its part along diag(A) N is
+   /// left out. Of all such x it is the one with Nᵀ diag(A) x = 0.
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const;
 
 private:
@@ -30,8 +29,9 @@ private:
     Cholesky factors; for a small matrix, or one with many soft motions, a pivoted LDLᵀ. */
 Eigen::MatrixXd null_space(const Eigen::MatrixXd &A);
 
-/// Does a symmetric positive semidefinite matrix clearly resist everything but these motions
-/// (orthonormal columns)? Costs a Cholesky factor. False: not clearly, null_space() knows.
+/// Does a symmetric positive semidefinite matrix clearly resist all other motions than these
+/// (orthonormal columns)? Costs a Cholesky factor. If false, it is not clear, and null_space()
+/// decides.
 bool resists_all_but(const Eigen::MatrixXd &A, const Eigen::MatrixXd &motions);
 
 } // namespace cattaneo

@@ -12,13 +12,13 @@ namespace cattaneo
 struct SmoothProgramme
 {
    Eigen::VectorXd low, high, least, most;
-   /// f and c are.
+   /// Are f and c linear?
    bool linear = false;
-   /// False: they have no value there.
+   /// False: f or c has no value at y.
    std::function<bool(const Eigen::VectorXd &y, double &f, Eigen::VectorXd &c)> values;
    std::function<bool(const Eigen::VectorXd &y, Eigen::VectorXd &f, Eigen::MatrixXd &c)>
       derivatives;
-   std::function<bool(int iteration)> goes_on; ///< asked in every iteration
+   std::function<bool(int iteration)> goes_on; ///< called in every iteration
 };
 
 /// With ∇f + Σ λ ∇c + z = 0, multipliers of upper bounds positive.

@@ -10,12 +10,12 @@ namespace cattaneo
 /// Copies the lower triangle into the upper one.
 void mirror_lower(Eigen::Ref<Eigen::MatrixXd> M);
 
-/// Largest |A - Bᵀ|, NaN if one of the differences is; 0 without entries. Two matrices may be
-/// one.
+/// Largest |A - Bᵀ|, NaN if one of the differences is; 0 without entries. A and B may be the
+/// same matrix.
 double largest_skew(const Eigen::Ref<const Eigen::MatrixXd> &A,
                     const Eigen::Ref<const Eigen::MatrixXd> &B);
 
-/// S X for a symmetric S, of which the lower triangle is read, and few columns.
+/// S X for a symmetric S, of which only the lower triangle is read, and an X with few columns.
 Eigen::MatrixXd symmetric_times(const Eigen::Ref<const Eigen::MatrixXd> &S,
                                 const Eigen::Ref<const Eigen::MatrixXd> &X);
 

@@ -5,8 +5,8 @@
 namespace cattaneo
 {
 
-/// Products K x. Half of K is read if it is symmetric to the last bit: these products take as
-/// long as memory does.
+/// Products K x. If K is symmetric to the last bit only half of it is read, because reading
+/// memory takes most of the time.
 class SymmetricProduct
 {
 public:

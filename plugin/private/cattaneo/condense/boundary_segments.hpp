@@ -41,10 +41,10 @@ struct WayOn
    double x, y; ///< unit vector that leaves the node
 };
 
-/** The contact line of boundary elements in any order: chains of them, nodes on the axis left
-    out, ends by the outer edges that leave its nodes. InputError, which begins with `where`, if
-    more than two elements meet at a node, nodes lie on one another, the line turns back on
-    itself, or it is not valid (ContactLine::validate). */
+/** The contact line of boundary elements in any order: it consists of chains, leaves out nodes
+    on the axis, and takes the kind of each end from the outer edges at that node. InputError,
+    which begins with `where`, if more than two elements meet at a node, nodes coincide, the
+    line turns back on itself, or it is not valid (ContactLine::validate). */
 ContactLine line_of(const std::vector<Segment> &segments, const std::vector<WayOn> &ways,
                     Formulation formulation, const std::string &where);
 

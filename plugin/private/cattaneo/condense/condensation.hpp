@@ -25,7 +25,8 @@ struct Condensation
    ClampedLoads clamped;
    Counters counters;
    std::shared_ptr<const BodySolver> solver;
-   Eigen::MatrixXd H = {}; ///< of a body with blocks; else it is that of the clamped loads
+   Eigen::MatrixXd H =
+      {}; ///< only set for a body with blocks; else H follows from the clamped loads
 };
 
 /// ReducedProblem::H, signs and symmetry, from the energies of clamped loads.
@@ -46,40 +47,42 @@ struct ContactDofs
    /// is then no plane of symmetry, though the node itself may be at rest.
    std::vector<int> in_moved_plane = {};
 
-   /// One of them is moved. InputError that names the node for a body of torsion or in space.
+   /// Notes that the load moves the dof at a position of `all`. InputError that names the node,
+   /// for a body of torsion or in space.
    void move(int position, Eigen::Index load, double by, const Trace &trace,
              const std::vector<BodyLoad> &loads);
    std::vector<int> free() const;
    std::vector<int> free_positions() const;
 };
 
-/// The dofs of a trace whose body has so many dofs. InputError if it is of another formulation,
-/// or its dofs are not from 0 to dofs - 1.
+/// The contact dofs of a trace on a body with `dofs` dofs. InputError if the trace has another
+/// formulation, or if one of its dofs is not from 0 to dofs - 1.
 ContactDofs contact_dofs(const Trace &trace, Formulation formulation, int dofs);
-/// The same of a line. InputError also if it is not sound (ContactLine::validate).
+/// The same for a line. InputError also if the line is not valid (ContactLine::validate).
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
 
-/// Does a load move one of these dofs in the plane of a contact dof, across its component? The
-/// dof is the one at a position of those of a trace.
+/// Does a load move one of these dofs in the plane of a contact dof, across its component?
+/// `position` is the place of that dof among those of the trace.
 bool moves_plane(const Trace &trace, int position, const DofPlaces &places,
                  const std::vector<int> &fixed, const std::vector<BodyLoad> &loads);
 
-/// InputError that names the node at a position of the contact dofs: it moves as `how` says,
-/// and may not.
+/// Throws an InputError that names the node at a position of the contact dofs. `how` says in
+/// which way it moves, which is not allowed.
 [[noreturn]] void refuse_motion(const Trace &trace, int position, const std::string &how);
-/// See refuse_motion(), of a node that a rigid block takes with it.
+/// `how` of refuse_motion() for a node that a rigid block moves.
 constexpr const char *in_guide = "is in a guide";
 
-/// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
-/// Only names and controls of `loads` are used. InputError as of meet_supports().
+/// The condensed body in the frames of the contact line, without the false stiffness against
+/// rigid motions that round-off causes. Only names and controls of `loads` are used. InputError
+/// as in meet_supports().
 CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
                               const ContactDofs &contact, Condensation found);
-/// The same of a surface.
+/// The same for a surface.
 CondensedBody in_local_frames(const ContactSurface &surface, const std::vector<BodyLoad> &loads,
                               const ContactDofs &contact, Condensation found);
 
-/// The results of condense() before it turns to the frames of the line; `contact`: the free
-/// ones of contact_dofs().
+/// The results of condense() before it turns to the frames of the line; `contact` are the free
+/// dofs of contact_dofs().
 Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
                                 const BodySolver *alike);
 

@@ -8,8 +8,8 @@ namespace cattaneo
 /// Rigid motions that the supports leave free.
 struct FreeMotions
 {
-   int count = 0;             ///< by the supports; those that K does not resist follow
-   Eigen::MatrixXd contact;   ///< at the contact dofs, one column a motion
+   int count = 0;           ///< the supports leave free; motions that K does not resist follow
+   Eigen::MatrixXd contact; ///< at the contact dofs, one column a motion
    Eigen::MatrixXd resultant; ///< work of each pattern's forces (columns) on each motion
 };
 
@@ -18,16 +18,16 @@ struct FreeMotions
 FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> &contact);
 
 /** Properties of a free body: rigid motions meet no resistance, and the clamped contact
-    balances the loads. In exact arithmetic imposing it changes nothing. In floating point a
-    motion that is large far from the contact (turning a half-plane of 10⁴ contact widths) would
-    leave round-off of 10⁻⁴ of the stiffness. All in global components. */
+    balances the loads. In exact arithmetic to impose these properties changes nothing. In
+    floating point a motion that is large far from the contact (turning a half-plane of 10⁴
+    contact widths) would leave round-off of 10⁻⁴ of the stiffness. All in global components. */
 class Equilibrium
 {
 public:
    explicit Equilibrium(const FreeMotions &free);
-   /// On contact forces of the clamped loads, one column a pattern.
+   /// Imposes them on the contact forces of the clamped loads, one column a pattern.
    void impose_on_forces(Eigen::MatrixXd &f) const;
-   /// On the reduced stiffness S.
+   /// Imposes them on the reduced stiffness S.
    void impose_on_stiffness(Eigen::MatrixXd &S) const;
    /// The motions of the contact dofs, orthonormal columns.
    const Eigen::MatrixXd &motions() const { return Q_; }

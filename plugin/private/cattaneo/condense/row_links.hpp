@@ -20,16 +20,16 @@ struct RowEntries
    /// Adds the row of K, whose diagonal is in column `own` (-1: in none). `diagonals`: of the
    /// matrix, in the columns of K.
    void add(const SparseView &K, int row, int own, const Eigen::VectorXd &diagonals);
-   /// Is it more than round-off that links the row with others? Entries beside the diagonal of
-   /// no more than 1e-12 of `most`, the largest such entry of the matrix, are round-off, unless
-   /// the diagonal is as small as they are: that is a soft material beside a stiff one.
+   /// Do entries beyond round-off link the row with others? Entries beside the diagonal of no
+   /// more than 1e-12 of `most`, the largest such entry of the matrix, are round-off, unless
+   /// the diagonal is as small as they are, as in a soft material beside a stiff one.
    bool link(double most) const;
    /// Does any entry beside the diagonal stand out from the round-off of `most`, and from that
    /// of the diagonal?
    bool stand_out(double most) const { return largest > 1e-12 * most && !holds_alone(); }
-   /** Does the diagonal hold the dof whatever the others do? They move it by no more than 1e-12
-       of what they move by, and it adds less than a rounding to the stiffness of the others:
-       Σ k_ij²/(k_ii k_jj) ≤ 1e-16. It is a support for them, be it a spring or an eliminated
+   /** Does the diagonal hold the dof whatever the others do? Then other dofs move it by at most
+       1e-12 of their own displacement, and it adds less than a rounding to their stiffness: Σ
+       k_ij²/(k_ii k_jj) ≤ 1e-16. It acts as a support, be it a stiff spring or an eliminated
        row whose zeros are round-off of a large diagonal. */
    bool holds_alone() const { return sum <= 1e-12 * diagonal && squares <= 1e-16 * diagonal; }
 };
@@ -37,21 +37,21 @@ struct RowEntries
 /// The diagonal of a square K.
 Eigen::VectorXd diagonal_of(const SparseView &K);
 
-/// The largest magnitude in rows of K beside the diagonal; `square`: rows and columns are of
-/// the same dofs, else there is no diagonal.
+/// The largest magnitude in rows of K beside the diagonal. `square`: rows and columns belong to
+/// the same dofs; otherwise there is no diagonal.
 double largest_beside_diagonal(const SparseView &K, bool square = true);
 
 /** Is the dof linked with others by more than round-off?
 
-    A row whose entries are all round-off, of the largest ones or of its own diagonal, is that
-    of a support that was eliminated, whatever its diagonal is, or of a material that is much
-    softer than another one in the body. The second one does not resist a translation along its
-    own component (along z only, about an axis).
+    If all entries of a row are round-off (of the largest entries or of its own diagonal), it
+    belongs either to an eliminated support, whatever its diagonal is, or to a material that is
+    much softer than another one in the body. A row of such a material does not resist a
+    translation along its own component (about an axis: along z only).
     @param diagonals of K */
 bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double most,
                const Eigen::VectorXd &diagonals);
-/// The same of a row whose entries are known, with the forces that a translation of all along
-/// its component takes there.
+/// The same for a row whose entries are known. `resistance` is the force in this row that a
+/// translation of all dofs along its component causes.
 bool is_linked(const RowEntries &entries, Formulation formulation, int component, double most,
                double resistance);
 
@@ -60,20 +60,22 @@ struct AloneDirection
 {
    int x = 0, y = 0;          ///< the node's dofs
    Eigen::Vector2d direction; ///< of length 1, neither along x nor along y
-   double diagonal = 0;       ///< what K holds along it
+   double diagonal = 0;       ///< stiffness along it
 };
 
-/** In the plane and about an axis: the first node with a direction across the axes that nothing
-   but a diagonal holds, to 1e-12 of what the node's rows hold: a support on a slope that was
-   eliminated in axes of its own before K was turned back to x and y. Rows of `fixed` dofs
-   (sorted) are not looked at.
+/** In the plane and about an axis: the first node with a direction oblique to the axes that
+    only a diagonal holds, to 1e-12 of the stiffness in the node's rows. It is a support on a
+    slope that was eliminated in its own axes before K was turned back to x and y. Rows of
+    `fixed` dofs (sorted) are skipped.
 
-    Both of the node's rows have entries beside it then, but these are multiples of each other,
-    and the direction that they leave out is a principal one of the node's own 2 × 2 block. */
+    Both rows of the node then have entries beside the diagonal, but one is a multiple of the
+    other. The direction that they do not resist is a principal one of the node's own 2 × 2
+    block. */
 std::optional<AloneDirection> alone_on_a_slope(const SparseView &K, const DofPlaces &places,
                                                const std::vector<int> &fixed);
 
-/// K without what links the sorted `rows` with any other: round-off, of eliminated ones.
+/// K without the entries that link the sorted `rows` with others. In eliminated rows these are
+/// round-off.
 SharedMatrix without_links(const SharedMatrix &K, const std::vector<int> &rows);
 
 } // namespace cattaneo

@@ -9,12 +9,12 @@ namespace cattaneo
 /// A place in messages: "(x, y)", in space "(x, y, z)".
 std::string place_text(const Eigen::Vector3d &place, Formulation formulation);
 
-/// The nodes of a line or of a surface, as what condenses and unites bodies sees them.
+/// The nodes of a line or of a surface, for functions that condense and unite bodies.
 struct Trace
 {
    Formulation formulation = Formulation::plane;
    Eigen::MatrixXi dofs;      ///< n × components
-   Eigen::MatrixX3d position; ///< n × 3; z is 0 but in space
+   Eigen::MatrixX3d position; ///< n × 3; z is 0 except in space
    Eigen::VectorXd spacing;   ///< n
 
    Trace(const ContactLine &line);       // NOLINT: a line is a trace

@@ -9,8 +9,8 @@ namespace cattaneo
 /// Places of the true dofs of this rank.
 DofPlaces places_of(const ElasticBody &body);
 
-/// All of an MFEM body on the first of its ranks, in the order of its global dofs; nothing of
-/// use on the others.
+/// The whole MFEM body on the first of its ranks, in the order of its global dofs. The result
+/// on other ranks has no meaning.
 AssembledBody assembled(const ElasticBody &body);
 
 } // namespace cattaneo

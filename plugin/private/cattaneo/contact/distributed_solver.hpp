@@ -12,12 +12,12 @@ namespace cattaneo
 #ifdef MFEM_USE_MPI
 
 /** Condensation and recovery on several ranks: conjugate gradients preconditioned by hypre's
-    BoomerAMG on the interior dofs, one solve a contact dof and load pattern.
+    BoomerAMG on the interior dofs, with one solve for each contact dof and load pattern.
 
     With W_j = {U_j; e_j} the field of contact dof j, the entries are energies, S_ij = W_iᵀ K
     W_j, whose error is the product of two errors of the fields: solves to a relative 1e-8 give
-    S to round-off. That asks for all fields at once: interior dofs of the rank × contact dofs
-    numbers. */
+    S to round-off. For this all fields are kept at once: on each rank interior dofs × contact
+    dofs numbers. */
 class DistributedSolver
 {
 public:

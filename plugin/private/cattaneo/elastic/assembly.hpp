@@ -18,20 +18,20 @@ namespace cattaneo
     - in the plane, elements that are affine (triangles with straight sides, parallelograms)
       share the integrals ∫ ∂φi/∂ξa ∂φj/∂ξb of the reference element, whatever their size.
 
-    `materials`: by element attribute - 1; all attributes are taken to have one. */
+    `materials` by element attribute - 1; each attribute must have one. */
 std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
                                                        const std::vector<Material> &materials,
                                                        Formulation formulation);
 
-/// The same of a material that varies within the elements: more points are taken, which is
+/// The same for a material that varies within the elements. More points are used, which is
 /// exact for Lamé coefficients of degree 4 on affine elements.
 std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
                                                        const VaryingMaterial &material,
                                                        Formulation formulation);
 
-/// Where the stiffness of an element is integrated, at points inside it, so that r > 0. Forces
-/// of initial strains taken at the same points let a body expand without stress, on curved
-/// elements too.
+/// The points at which the stiffness of an element is integrated. They lie inside it, so that r
+/// > 0. If forces of initial strains are integrated at the same points, a body expands without
+/// stress, with curved elements too.
 const mfem::IntegrationRule &
 stiffness_rule(const mfem::FiniteElement &element,
                const mfem::IsoparametricTransformation &transformation, Formulation formulation,

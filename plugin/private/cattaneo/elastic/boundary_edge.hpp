@@ -19,7 +19,7 @@ public:
    BoundaryEdge(mfem::Mesh &mesh, int boundary_element);
 
    Eigen::Vector2d point(double s);
-   /// With the point set, for what is evaluated there.
+   /// The element's transformation, set to that point, for evaluating coefficients there.
    mfem::ElementTransformation &at(double s);
    /// dx/ds; its length is the Jacobian of the curve.
    Eigen::Vector2d derivative(double s);

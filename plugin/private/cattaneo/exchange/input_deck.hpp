@@ -25,8 +25,9 @@ struct DeckMaterial
    double young = 0, poisson = 0;
 };
 
-/** What an .inp of CalculiX or ABAQUS says of plane bodies. Names are in capitals. Of several
-    instances one is left, its sets without the name of the instance. */
+/** Contents of an .inp of CalculiX or ABAQUS about plane bodies. Names are in capitals. Of
+    several instances only the chosen one is kept, and its sets lose the name of the instance.
+    */
 struct InputDeck
 {
    using Nodes = NodalStiffness::Nodes;
@@ -34,8 +35,8 @@ struct InputDeck
    {
       int number = 0;
       std::string type, place; ///< place: file and line
-      Nodes nodes;             ///< corners, then the middles of its sides
-      /// 3 or 4 for plane and axisymmetric elements, 2 for trusses, 0 for others.
+      Nodes nodes; ///< corners, then the middles of its sides. The number of corners is 3 or 4
+                   ///< for plane and axisymmetric elements, 2 for trusses, 0 for others.
       std::size_t corners = 0;
       int section = 0; ///< number of its *SOLID SECTION, from 1; 0: none
    };
@@ -70,15 +71,15 @@ struct DeckPart
 };
 
 /** Reads nodes, elements, sets, surfaces, sections and materials; for DeckUse::stiffness also
-    what *CLOAD and *BOUNDARY say in any step. *INCLUDE is followed. What else there is, is
-    passed over: contact pairs, steps and loads of a mesh. Each *INSTANCE is a copy of its part
-    that may be moved and turned in the plane.
+    *CLOAD and *BOUNDARY of all steps. *INCLUDE is followed. All other cards are ignored:
+    contact pairs, steps and loads of a mesh. Each *INSTANCE is a copy of its part that may be
+    moved and turned in the plane.
 
-    InputError, with file and line, for what would make the body another one than is thought:
-    cards that make nodes or elements, couplings of nodes, nodes that are not in one plane, to
-    1e-9 of the extent of the body, a thickness that is not 1, elements of both formulations,
-    surfaces inside of the body, several instances or parts of which none is named. Beside a
-    matrix also for *TRANSFORM, contact pairs and a second instance. */
+    InputError, with file and line, for cards that would change the body without being read:
+    cards that generate nodes or elements, couplings of nodes, nodes that are not in one plane,
+    to 1e-9 of the extent of the body, a thickness that is not 1, elements of both formulations,
+    surfaces inside of the body, several instances or parts if `part` names none of them. Beside
+    a matrix also for *TRANSFORM, contact pairs and a second instance. */
 InputDeck read_input_deck(const std::string &file, DeckUse use, const DeckPart &part = {});
 
 } // namespace cattaneo

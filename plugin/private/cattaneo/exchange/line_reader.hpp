@@ -26,9 +26,9 @@ public:
    /// Fields of the line between commas, without blanks around them. An empty field at the end
    /// of the line is left out.
    std::vector<std::string_view> fields() const;
-   /// What stands between blanks, commas and stars (of a comment).
+   /// The words between blanks, commas and stars (of a comment).
    std::vector<std::string_view> words() const;
-   /// All of them as numbers, added to `numbers`.
+   /// Appends all words, as numbers, to `numbers`.
    void add_integers(std::vector<int> &numbers, const char *what) const;
    /// A number as C or Fortran writes it; InputError unless it is finite.
    double number(std::string_view field, const char *what) const;

@@ -17,7 +17,7 @@ public:
 
    void add(int row, int column, double value) { entries_.emplace_back(row, column, value); }
 
-   /** All of the matrix. InputError if an entry is there twice, if an entry and its mirror
+   /** The whole matrix. InputError if an entry is listed twice, if an entry and its mirror
        image are both there and differ by more than 1e-10 of the largest, or if a row (one that
        `is_elastic`) has no positive diagonal. The sentence begins with `file`, rows are called
        by `row_name`. */

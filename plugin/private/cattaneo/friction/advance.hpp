@@ -17,8 +17,8 @@ bool closes(const ReducedProblem &problem, const ContactState &before,
 bool advances_too_far(const ReducedProblem &problem, const ContactState &before,
                       const ContactState &after);
 
-/// Largest change of a node's friction force if a node closes in the increment, else 0. That
-/// change may be wrong, and the error stays.
+/// Largest change of a node's friction force if a node closes in the increment, else 0. The
+/// change may be wrong by as much, and later increments do not correct it.
 double changed_while_closing(const ReducedProblem &problem, const ContactState &before,
                              const ContactState &after);
 

@@ -6,8 +6,8 @@
 namespace cattaneo
 {
 
-/// States that a node may choose: all, or for rates those that the present gap and forces
-/// allow.
+/// States from which a node may choose: all, or for rates only those that its present gap and
+/// forces allow.
 enum class Choice : signed char
 {
    any,      ///< x_n >= 0, p >= 0, one of them zero; in contact |q| <= f p and Coulomb's law
@@ -15,7 +15,7 @@ enum class Choice : signed char
    stick,    ///< stays in stick
    forward,  ///< x_n = 0; x_t >= 0, q + f p >= 0, one of them zero: stick or forward slip
    backward, ///< x_n = 0; x_t <= 0, f p - q >= 0, one of them zero: stick or backward slip
-   sliding   ///< x_n = 0, q = 0: contact without friction; the state says the sense only
+   sliding   ///< x_n = 0, q = 0: contact without friction; the state has only the sense of slip
 };
 
 /** Finds node states whose equations (see StateEquations) have a solution that obeys the laws
@@ -25,8 +25,8 @@ struct ComplementarityProblem
 {
    Eigen::VectorXd b;
    std::vector<Choice> choice;
-   /// Bounds of the nodes, which may bend with the pressure and have intercepts, while the
-   /// equations have slopes only. Empty: the bounds of the equations.
+   /// Bounds of the nodes, which may bend with the pressure and have intercepts. (The equations
+   /// have slopes only.) Empty: the bounds of the equations.
    std::vector<FrictionBound> bounds;
 };
 
@@ -34,47 +34,46 @@ struct ComplementarityReport
 {
    bool solved = false;
    long newton_steps = 0; ///< semismooth Newton steps (all nodes change at once)
-   long pivots = 0;       ///< exchanges of single nodes by Lemke's method
+   long pivots = 0;       ///< changes of state of single nodes by Lemke's method
    Eigen::VectorXd x, F;
 };
 
 /** Semismooth Newton steps on node states, as increments and rates share them.
 
-    `solve` finds the solution of the linear equations that the states stand for; false if these
-    are singular. `ask` gives each node the state, and the piece of its bound, that the solution
-    asks for, and says how many nodes have changed. `choices` are these states and pieces as
-    numbers.
+    `solve` solves the linear equations of the present states; false if these are singular.
+    `ask` gives each node the state, and the piece of its bound, that follow from the solution,
+    and returns how many nodes have changed. `choices` are these states and pieces as numbers.
 
-    True where no node changes any more. False where the equations are singular, where choices
-    come back that were tried before, after max_steps, or where `few` nodes or fewer go on
-    changing and do not become fewer. */
+    True if no node changes any more. False if the equations are singular, if choices repeat
+    that were tried before, after max_steps, or if `few` nodes or less keep changing and do not
+    become fewer. */
 bool newton_on_states(const std::function<std::vector<double>()> &choices, int max_steps,
                       Eigen::Index few, const std::function<bool()> &solve,
                       const std::function<Eigen::Index()> &ask);
 
 /// Semismooth Newton steps from the states of `equations`, which are those of the solution
-/// afterwards. `start` may contain x and F of the first states, to save solving for them.
+/// afterwards. `start` may contain x and F of the first states, which saves a solution.
 ComplementarityReport solve_by_newton(StateEquations &equations,
                                       const ComplementarityProblem &problem, int max_steps,
                                       ComplementarityReport start = {});
 
 /** Lemke's method [Lemke 1965] with a free start.
 
-    The start: x and F are what the caller wishes, as the solution of a neighbouring problem.
-    They are moved into the inside of all inequalities of the present states of `equations`, by
-    random amounts of the size `slack` times the largest force, so that no two nodes exchange at
-    once. They are then a solution at some other b.
+    The start: x and F may be anything, such as the solution of a neighbouring problem. They are
+    moved so far that they satisfy all inequalities of the present states of `equations`
+    strictly, by random amounts of the size `slack` times the largest force, so that no two
+    nodes change at once. They are then a solution for some other b.
 
-    The way: b is moved to the problem's, and the solution follows. Where an inequality of a
-    node becomes an equation the node exchanges its state, or the piece of its bound. After an
-    exchange b may have to go back for a while. On the way a node may bear a little shear beyond
-    f p, in separation too, which vanishes at the end: slip, stick, opening and closing are then
-    one exchange each.
+    The way: b is moved to that of the problem, and the solution follows. Where an inequality of
+    a node becomes an equation, the node changes its state, or the piece of its bound. After a
+    change b may have to move back for a while. On the way a node may carry a little shear
+    beyond f p, in separation too, which vanishes at the end. Slip, stick, opening and closing
+    are then one change each.
 
-    Not solved if the way ends in a ray, on which no node exchanges any more (above critical
-    friction, for instance), if the equations are singular at the start or after an exchange,
-    and if 20 n + 100 exchanges have not led to a solution that meets all inequalities. Another
-    start may do better. */
+    Not solved if the way ends in a ray, on which no node changes any more (above critical
+    friction, for instance), if the equations are singular at the start or after a change, or if
+    20 n + 100 changes have not led to a solution that meets all inequalities. Another start may
+    succeed. */
 ComplementarityReport solve_by_lemke(StateEquations &equations,
                                      const ComplementarityProblem &problem,
                                      const Eigen::VectorXd &x, const Eigen::VectorXd &F,

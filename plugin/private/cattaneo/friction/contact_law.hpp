@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-// The laws of contact and friction of one node: its methods, checks and paths all ask here.
+// The laws of contact and friction of one node, which all methods, checks and paths use.
 //
 // A node has no tangential entries without friction, one in the plane, two in the disc
 // |q| <= f p (first and second tangent), where a slip increment x opposes the friction force,
@@ -16,18 +16,18 @@ namespace cattaneo
 using NodeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>;
 using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2>;
 
-/// Length, without overflow. (Not `size`: of an expression that would be Eigen's, the number of
-/// its entries.)
+/// Length, without overflow. (It is not called `size`, because Eigen's size() of an expression
+/// is the number of its entries.)
 double magnitude(const NodeVector &x);
 
 /** Bound of the tangential force of a node at its normal force p: Coulomb's f p, or that of a
     FrictionLaw. The solvers, their checks, losses and zones() use it, and the cones of
-    shakedown use its pieces. Derivatives and wear know Coulomb's law alone, and refuse another
-    one (require_coulomb()).
+    shakedown use its pieces. Derivatives and wear support Coulomb's law only, and refuse
+    another one (require_coulomb()).
 
     All callers ask for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
-    direction of the disc), and linearise it by its slope there. So only this class knows that a
-    bound may differ from sense to sense or bend with p. */
+    direction of the disc), and linearise it by its slope there. So no other class depends on a
+    bound that differs from sense to sense or bends with p. */
 class FrictionBound
 {
 public:
@@ -40,7 +40,7 @@ public:
    explicit FrictionBound(const FrictionLaw &law);
    /// No friction at any p.
    bool none() const { return !law_ && lines_[0].slope == 0 && lines_[1].slope == 0; }
-   /// Has pieces, so that no one line is it.
+   /// Does the bound consist of more than one line?
    bool bends() const { return law_ != nullptr; }
    /// The lines of the pieces at p; at a bend the pieces below it.
    FrictionBound straight(double p) const;
@@ -51,7 +51,7 @@ public:
    double bend(double p, double way) const;
    /// Nothing in tension.
    double at(double p, double sense = 0) const { return line(std::max(p, 0.0), sense); }
-   /// The bound without its end at p = 0: its straight piece goes on into tension.
+   /// The bound as if it did not end at p = 0: its straight piece continues into tension.
    double line(double p, double sense = 0) const
    {
       return intercept(p, sense) + slope(p, sense) * p;
@@ -59,14 +59,15 @@ public:
    /// The intercept of that line, which does not grow with p: zero in Coulomb's law.
    double intercept(double p = 0, double sense = 0) const { return piece(p, sense).intercept; }
    double slope(double p = 0, double sense = 0) const { return piece(p, sense).slope; }
-   /// The larger slope of both senses there.
+   /// The larger of the slopes of both senses at that p.
    double steepness(double p) const { return std::max(slope(p, 1), slope(p, -1)); }
    /// Derivative of the bound itself, which is zero in tension.
    double derivative(double p, double sense = 0) const
    {
       return at(p, sense) > 0 ? slope(p, sense) : 0.0;
    }
-   /// Force that is left before the node slips in a sense (plane), negative beyond.
+   /// Plane: bound less the force, the reserve before the node slips in a sense. Negative
+   /// beyond the bound.
    double reserve(double q, double p, double sense) const { return line(p, sense) + sense * q; }
 
 private:
@@ -110,8 +111,8 @@ struct ContactNode
 NodeState friction_state(const ContactNode &node, double margin = 0);
 
 /** The state that follows from displacements and forces that solve the equations of the node's
-    state `now`. Violations up to `tiny` (normal) and `tiny_along` (tangential) change nothing,
-    so that states do not flicker where two of them meet. */
+    state `now`. Violations up to `tiny` (normal) and `tiny_along` (tangential) change no state,
+    so that states do not alternate where two of them meet. */
 NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, double tiny_along);
 
 /// The state of a node in a solution: its own, or the state that it violates least if it
@@ -119,7 +120,7 @@ NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, doub
 /// sense of slip.
 NodeState fitting_state(const ContactNode &node, NodeState now, double allowed);
 
-/// The state that the natural map gives the node, whatever it was.
+/// The state that the natural map gives the node, independent of its present one.
 NodeState natural_state(const ContactNode &node);
 
 /// The laws as one equation, the natural map: zero in a solution, otherwise forces.
@@ -133,10 +134,10 @@ struct NodeResidual
 
 NodeResidual residual(const ContactNode &node);
 
-/** Derivative of the tangential residual: (1 - P) dq + P k dx - slope n dp, where the trial
-    force has the direction n and P leaves of a change what the bound does not fix. In stick P =
-    1, n = 0; in slip of the plane P = 0; in that of the disc P = β t tᵀ with t across n and β =
-    (bound)/|trial|, since the derivative of τ/|τ| is (1 - n nᵀ)/|τ|. */
+/** Derivative of the tangential residual: (1 - P) dq + P k dx - slope n dp, where n is the
+    direction of the trial force, and P projects a change onto what the bound leaves free. In
+    stick P = 1, n = 0; in slip of the plane P = 0; in that of the disc P = β t tᵀ with t across
+    n and β = (bound)/|trial|, since the derivative of τ/|τ| is (1 - n nᵀ)/|τ|. */
 struct FrictionDerivative
 {
    NodeMatrix P;
@@ -178,7 +179,7 @@ LoneNode lone_node(const ReducedProblem &problem, Eigen::Index i);
 
 struct NodeMove
 {
-   bool found = false; ///< false: no consistent state (above the critical friction)
+   bool found = false; ///< false: no state obeys the laws (above the critical friction)
    NodeState state = NodeState::stick;
    NodeVector slip;
    double gap = 0;
@@ -191,36 +192,36 @@ struct NodeMove
     stuck). */
 NodeMove solve_node(const LoneNode &node);
 
-/** Coefficient of friction above which a node alone has two answers for some loads, and below
-    which it has one for all: least mᵀA m/|bᵀm| over the directions m of slip (A/|b| where there
-    is one). Two answers, Δx their difference, have Δxᵀ Δq = Δxᵀ A Δx and, by Coulomb's law,
-    Δxᵀ Δq <= f |Δp| |Δx| with Δp = bᵀΔx. If that holds along m, stick and slip along m are both
-    answers under a pressure that is large beside them. */
+/** Critical coefficient of friction of a single node: above it the node has two answers for
+    some loads, below it one for all loads. It is the least mᵀA m/|bᵀm| over the directions m of
+    slip (A/|b| where there is one). Two answers, Δx their difference, have Δxᵀ Δq = Δxᵀ A Δx
+    and, by Coulomb's law, Δxᵀ Δq <= f |Δp| |Δx| with Δp = bᵀΔx. If that holds along m, stick
+    and slip along m are both answers under a pressure that is large beside them. */
 double critical_friction(const LoneNode &node);
 
 /// Distance of a state from a solution of an increment, in forces.
 struct LawCheck
 {
    double normal = 0, tangential = 0; ///< largest violations
-   bool obeyed = true;                ///< no node is violated by more than is allowed to it
+   bool obeyed = true; ///< no node violates its laws by more than it is allowed to
 };
 
 /** Judges the end of an increment that began with the slip v_old, from the problem as it is
     given: the stated forces are those of the stated displacements, F = K u + Σ λ_k f_k, and
     these obey the laws: no penetration, no tension, no pressure across a gap, no friction
-    beyond its bound, and what slips does so against a friction force of its bound. A gap and a
-    slip count by the node's own stiffness; a slip that does not oppose its friction by
-    slip_violation().
+    beyond its bound, and a node that slips has the friction force of its bound against the
+    slip. A gap and a slip are multiplied by the node's own stiffness; for a slip that does not
+    oppose its friction see slip_violation().
 
     `forces`: K u + Σ λ_k f_k of the state's own displacements, {q; p}, formed anew by the
-    caller from the stiffness as it is given. `allowed`: what is allowed to each node, a force
-    (tolerance); `round_off` what arithmetic leaves, for each row of {q; p}. The direction of a
-    slip in the disc is known to the round-off of displacements over its length only, which is
-    allowed too (and counted all the same).
+    caller from the stiffness as it is given. `allowed`: the tolerance of each node, a force.
+    `round_off`: the round-off of each row of {q; p}. The direction of a slip in the disc is
+    uncertain by the round-off of displacements over its length. This is allowed too, but it is
+    counted in the result.
 
-    `slip_error`: how well each slip since v_old is known, if it is known worse than to the
-    round-off of its displacement, as where the closed nodes hardly hold a body. A shorter slip
-    has no direction. Empty: nothing is known of that. */
+    `slip_error`: error of each slip since v_old, if it is larger than the round-off of the
+    displacement, as where the closed nodes hardly hold a body. A slip shorter than its error
+    has no direction. Empty: the errors are not known. */
 LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
                     const ContactState &state, const Eigen::VectorXd &forces, double allowed,
                     const Eigen::VectorXd &round_off, const Eigen::VectorXd &slip_error = {});
@@ -230,7 +231,7 @@ LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
 /// x/|x||, and the force that the slip itself amounts to. `uncertain` is the error of x: it
 /// excuses an angle of that size, and any angle of a shorter slip.
 double slip_violation(const ContactNode &node, double uncertain = 0);
-/// That of displacements of such size.
+/// Round-off of displacements of this size.
 double slip_round_off(double size);
 
 } // namespace cattaneo

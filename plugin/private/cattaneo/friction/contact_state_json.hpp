@@ -12,11 +12,11 @@ Eigen::VectorXd json_vector(const nlohmann::json &j);
 
 /// A complete state, to the last bit. InputError if a value is not finite.
 nlohmann::json to_json(const ContactState &state);
-/// What to_json() made. @param file where it stands, for InputError
+/// The state that to_json() wrote. @param file its name, for InputError
 ContactState contact_state(const nlohmann::json &j, const std::string &file);
 
-/// Reads a file whose "format" is this one. @param what the file is to be, for InputError,
-/// which also says what `read` found missing
+/// Reads a file with this "format". @param what the kind of file that is expected, for
+/// InputError, which also names a key that `read` did not find
 void read_state_file(const std::string &what, const std::string &file,
                      const std::string &format,
                      const std::function<void(const nlohmann::json &)> &read);

@@ -15,8 +15,8 @@ struct Increment;
    node that slips, whose equations are linearised about a direction of slip (DiscSlip).
 
     The directions change from step to step, and with them a part of each equation. A step is
-    solved by iterations in which the factor of an earlier step of the same increment stands for
-    the equations (GMRES, [Saad 1986]); where these do not end soon, the equations are
+    solved by iterations (GMRES, [Saad 1986]) that are preconditioned by the factor of an
+    earlier step of the same increment. If these do not converge soon, the equations are
     factored. */
 class DiscEquations
 {
@@ -30,8 +30,8 @@ public:
    /// Moves to the solution of the linear equations of the present states and directions. False
    /// if they are singular.
    bool solve(Increment &at);
-   /// From now on, in this increment, each solution is improved by a second one that starts
-   /// from it.
+   /// From now on, in this increment, each solution is refined by a second one that starts from
+   /// it.
    void refine() { refines_ = true; }
 
 private:

@@ -19,9 +19,10 @@ struct Rubbing
 Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
                 const ContactState &after);
 
-/** Frictional loss of each node (size n) over an increment: ½ (b₀ + b₁)|Δv| with the bounds, f
-    p of Coulomb's law, at the pressures of its rubbing(), exact for a linear change along which
-    the node is in contact and slips one way under a law that does not bend. Never negative. */
+/** Frictional loss of each node (size n) over an increment: ½ (b₀ + b₁)|Δv| with the bounds (f
+    p in Coulomb's law) at the pressures of its rubbing(). It is exact for a linear change in
+    which the node is in contact and slips in one direction, under a law that does not bend.
+    Never negative. */
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 
@@ -45,8 +46,8 @@ RubbingDerivative loss_derivative(const ReducedProblem &problem, const ContactSt
                                   const ContactState &after, const Rubbing &rub,
                                   Eigen::Index node);
 
-/// Elastic energy of both bodies by the contact displacements and loads of a state. The part
-/// that the loads store in the clamped bodies is included only if H is known.
+/// Elastic energy of both bodies in a state. The part that the loads store in the clamped
+/// bodies is included only if H is known.
 double elastic_energy(const ReducedProblem &problem, const ContactState &state);
 
 } // namespace cattaneo

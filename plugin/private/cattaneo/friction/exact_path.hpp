@@ -15,8 +15,8 @@ void list_changes(const ContactState &from, const std::vector<NodeState> &to,
                   std::vector<StateChange> &changes);
 
 /// A straight piece of an exact path. The loads change linearly from those of the state to
-/// `multipliers` at `time`. They are followed as far as a stop on the way, at the latest to
-/// their end.
+/// `multipliers` at `time`. The path is followed as far as a stop on the way, at most to that
+/// end.
 struct PathWay
 {
    double time;                        ///< of its end
@@ -27,10 +27,10 @@ struct PathWay
 
 /** The exact path of frictional contact: where loads change linearly, displacements and forces
     do too, until a node reaches a boundary of its state (a gap closes, a pressure vanishes,
-    friction is exhausted). There, and where the loads turn, the nodes on a boundary choose new
-    states such that the rates meet the laws of contact and friction: a small complementarity
-    problem. One inverse is kept through all changes by low-rank updates; there is no step
-    size.
+    friction is exhausted). There, and where the direction of the loads changes, the nodes on a
+    boundary get new states such that the rates meet the laws of contact and friction. This is a
+    small complementarity problem. One inverse is kept through all changes by low-rank updates;
+    there is no step size.
 
     The state alone says which nodes are on a boundary (to round-off), so that a path can be cut
     at any event and resumed: the result is the same to round-off. */
@@ -45,9 +45,10 @@ public:
    /// from such a state, and not from an initial slip or interference.
    bool starts_from(const ContactState &state) const;
 
-   /** Advances `state` as far as the next event or the stop, and appends the changes of state
-       with which it set out. A stop is no event: the rates and the factor go on over it.
-       False, with the state unchanged, if it does not go on; failure() says why. */
+   /** Advances `state` to the next event or to the stop, and appends the changes of state at
+       the start of this step. A stop is no event: rates and factor are kept across it. If the
+       path cannot be continued, it returns false and leaves the state unchanged; failure() says
+       why. */
    bool advance(ContactState &state, const PathWay &way, std::vector<StateChange> &changes);
 
    /// Node that reached the boundary of its state at the end of the last advance(); -1: none
@@ -120,7 +121,7 @@ private:
       Eigen::VectorXd motion;
       Eigen::Index node = -1;
    } pivot_;
-   /// What the last advance() came to.
+   /// Results of the last advance().
    struct
    {
       bool ended = false;

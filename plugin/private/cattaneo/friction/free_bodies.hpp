@@ -6,8 +6,8 @@
 namespace cattaneo
 {
 
-// Bodies that no support holds: they have rigid motions, and contact alone keeps them where
-// they are. All of this is asked only where a problem has rigid motions.
+// Bodies that no support holds: they have rigid motions, and only contact keeps them in place.
+// These functions are called only for problems with rigid motions.
 
 /// A rigid motion along which the loads do work that no admissible contact forces can balance.
 struct Mechanism
@@ -28,9 +28,9 @@ Eigen::MatrixXd cone_edges(const Eigen::MatrixXd &Z, const std::vector<FrictionB
 /** Can contact forces inside the friction cones (p >= 0, |q| <= f p) balance the given clamped
     forces {q; p} along the rigid motions? By Farkas' lemma either they can, or there is a
     mechanism: the residual of a non-negative least-squares problem in the edges of the cones. A
-    round cone (two tangential components) has edges in all directions; those that the residual
-    points at are added until none points at it any more. Equilibrium is only possible if they
-    can; if they cannot, that is the reason why there is none.
+    round cone (two tangential components) has edges in all directions; edges along the residual
+    are added until the residual has no positive part along any edge. If the forces cannot
+    balance, there is no equilibrium, and the mechanism is the reason.
 
     A resultant whose largest share of a node is at most `negligible` counts as none (loads that
     balance each other to round-off). */
@@ -63,8 +63,8 @@ Eigen::MatrixXd free_motions(const ReducedProblem &problem,
 
     with d the forces along the free motions c, W the normal rows of these and t large: for all
     t from some one on that is the nearest solution of the linear programme max dᵀc (Mangasarian
-    1979). Motions that a touching node would see are left to friction. None if nothing is
-    pushed, or if no contact stops it. */
+    1979). Motions that would move a touching node are left to friction. Empty if nothing is
+    pushed, or if no contact stops the motion. */
 std::optional<Eigen::VectorXd> taken_up_clearance(const ReducedProblem &problem,
                                                   const Eigen::VectorXd &clamped_forces);
 

@@ -12,9 +12,10 @@
 namespace cattaneo
 {
 
-// Round-off of forces, over the largest: above this a residual within it shows nothing,
+// Round-off of forces, relative to the largest: above this value a residual within the
+// round-off proves nothing,
 constexpr double lost = 1e-6;
-// and above this it may hide what drives a body that slides.
+// and above this value it may hide the force that drives a sliding body.
 constexpr double may_hide_sliding = 1e-10;
 
 /// Lengths of the contact nodes: their weights, or ones if these are not known.
@@ -40,7 +41,7 @@ struct WithoutSlip
    // that nothing resists, and the amount of each in given displacements.
    std::unique_ptr<SemidefiniteSolver> tangential;
    Eigen::MatrixXd slides_freely, share_of_motion;
-   // The same contact with its slip among the unknowns, made when first needed.
+   // The same contact, but with slip among the unknowns. Made when first needed.
    std::unique_ptr<FrictionSystem> kept;
 };
 
@@ -65,7 +66,7 @@ struct PlaneEquations
    std::unique_ptr<StateEquations> coupled, normal, tangential;
 };
 
-/// What FrictionSolver keeps from increment to increment.
+/// Data that FrictionSolver keeps from increment to increment.
 struct FrictionSystem
 {
    using Index = Eigen::Index;
@@ -77,7 +78,8 @@ struct FrictionSystem
                   bool keeps_slip = false);
    FrictionSystem(const FrictionSystem &) = delete;
 
-   const std::shared_ptr<const ReducedProblem> shared; ///< with others who solve it
+   const std::shared_ptr<const ReducedProblem>
+      shared; ///< shared with other solvers of the problem
    const ReducedProblem &problem;
    FrictionSettings settings;
    Counters counters;

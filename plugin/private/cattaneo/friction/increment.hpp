@@ -14,14 +14,15 @@ struct OnSprings
    /// which springs may miss because of friction in the disc (find_spinning()).
    Mechanism away;
    std::optional<ContactState> state; ///< with the weakest spring that stopped the bodies
-   bool bear_nothing = false;         ///< that spring bears nothing: the state is an answer
+   bool bear_nothing = false; ///< that spring carries no force, so the state is an answer
 };
 
 /// Why an increment has no solution, if known.
 struct Cause
 {
    Mechanism mechanism;
-   double lost_in_round_off = 0; ///< round-off of a solution that moves too far; 0: none
+   double lost_in_round_off =
+      0; ///< round-off of a solution with too large displacements; 0: none
 };
 
 /// One increment: its start, its present displacements and forces, and what was found about it.
@@ -37,7 +38,7 @@ struct Increment
       std::vector<NodeState> status;
    };
 
-   /// Stands at the start, with the loads of the end.
+   /// The increment at its start, with the loads of its end.
    Increment(FrictionSystem &system, const ContactState &start, const VectorXd &multipliers);
 
    FrictionSystem &system;
@@ -56,9 +57,9 @@ struct Increment
    Place swept;
 
    IncrementReport report;
-   ContactState next; // the end that ends_here() judged last
+   ContactState next; // the report of the last call of ends_here()
    Cause cause;
-   std::optional<OnSprings> springs; // if asked, see moves_away()
+   std::optional<OnSprings> springs; // set by moves_away()
 
    double scale() const { return reference > 0 ? reference : 1.0; }
    double gap(Index i) const { return u[system.m(i)] + system.problem.gap[i]; }
@@ -85,8 +86,8 @@ struct Increment
    /// bodies a state that passes may still be discarded, as round-off may hide that they move
    /// away (FrictionSystem::solve(), lemke_from_afar(), damped_newton()).
    bool ends_here();
-   /// Fills the report with the residual of the natural map in the present state. True if that
-   /// may be small enough for ends_here(), which demands more.
+   /// Fills the report with the residual of the natural map in the present state. True if it
+   /// may be small enough for ends_here(), whose check is stricter.
    bool residuals();
    /// True if no admissible contact forces can balance the loads: there is no equilibrium. It
    /// is Cause::mechanism then.

@@ -24,7 +24,7 @@ struct MarchStep
    bool stalled() const { return increment.status == FrictionStatus::stalled; }
 };
 
-/// What friction took in a march.
+/// Energy lost by friction in a march.
 struct Losses
 {
    std::vector<double> pieces; ///< of each piece of the history that was marched, in order
@@ -43,18 +43,18 @@ public:
 
    MarchReport report;
 
-   /// The state, in which nothing was accepted yet, is another one.
+   /// Replaces the state, before any step was accepted.
    void restart();
-   /// The state is at the beginning of a cycle, or, if not `whole`, within it.
+   /// A cycle begins at the state. If not `whole`, the state lies within the cycle.
    void begin_cycle(int number, bool whole);
-   /// The end of a step of a piece becomes the state.
+   /// Accepts a step of a piece: its end becomes the state.
    void accept(MarchStep &&step, const LoadPiece &piece);
-   /// The state stands at the last load with an equilibrium.
+   /// Notes that the state has the last loads with an equilibrium.
    void stop(const IncrementReport &failure);
-   /// The last row, the balance of energy, and how far the march came.
+   /// Adds the last row, the balance of energy, and how far the march came.
    void close();
    const Losses &losses() const { return losses_; }
-   /// Is a step accepted that no row has yet?
+   /// Was a step accepted that is in no row yet?
    bool within_row() const { return row_begun_; }
 
 private:

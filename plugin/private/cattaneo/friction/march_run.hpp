@@ -35,8 +35,8 @@ int steps_of_piece(const MarchSettings &settings, const LoadPiece &piece);
 /// Does the friction bound of a node consist of more than one line?
 bool friction_bends(const ReducedProblem &problem);
 
-/// In a state before any load: moves free bodies that touch nothing to the place where the
-/// first loads that push them press them on. Returns the largest distance; 0: nothing is moved.
+/// For a state before any load. Moves free bodies that touch nothing until they touch where the
+/// first loads push them. Returns the largest distance; 0: nothing is moved.
 double take_up_clearance(const ReducedProblem &problem, const LoadHistory &history,
                          ContactState &state);
 
@@ -48,7 +48,7 @@ public:
    MarchRun(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
             const MarchSettings &settings, const MarchObserver &observer);
 
-   /// Marches to the end of the history, or as far as there are equilibria.
+   /// Marches to the end of the history, or to the last equilibrium that is found.
    MarchReport run();
    /// The losses of what run() has marched.
    const Losses &losses() const { return record_.losses(); }

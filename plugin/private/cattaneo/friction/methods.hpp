@@ -9,7 +9,7 @@ namespace cattaneo
 
 enum class Search
 {
-   found,    ///< the increment stands there, with its report
+   found,    ///< the increment is at the end that was found, with its report
    not_here, ///< another method may find it
    hopeless ///< no further method is tried: weak springs bear nothing, so only rest is possible
 };
@@ -32,9 +32,9 @@ Eigen::Index ask_for_states(Increment &at);
 /// newton() from a point that may itself be a solution, apart from round-off.
 bool polished(Increment &at);
 
-/// Plane: follows solutions of neighbouring problems to that of the increment, one node's state
-/// at a time. It starts eight times near the start of the increment, or from random places
-/// about it.
+/// Plane: follows solutions of neighbouring problems to that of the increment, and changes the
+/// state of one node at a time. It starts eight times near the start of the increment, or from
+/// random places about it.
 Search lemke(Increment &at);
 Search lemke_from_afar(Increment &at);
 
@@ -62,22 +62,23 @@ constexpr double search_operations = 3e9;
 bool find_end_quickly(Increment &at);
 
 /// Newton's steps without springs from the place where the weakest springs hold the bodies.
-/// Hopeless if they fail and the springs bear nothing; then the place itself may be a solution
-/// (rest).
+/// Hopeless if they fail and the springs carry no force; then the place itself may be a
+/// solution (rest).
 Search weak_springs(Increment &at);
 /// Does a body drift or spin away, according to weak springs? Checked once in an increment. If
 /// no end is found this is the reason. If an end is found nevertheless it counts, unless
 /// round-off may hide the motion (runs_away()).
 bool moves_away(Increment &at);
 
-/// Of an answer that was found from afar: may it be a free body that slides away? Round-off of
-/// so large displacements hides what drives such a body. That cannot be where the nodes that
-/// touch or stick hold all bodies. One that touched nothing before is not believed either: a
-/// march moves it to where it touches first, and knows its forces better then.
+/// For an answer that was found from a distant start: may it be a free body that slides away?
+/// Round-off of such large displacements hides the force that drives the body. It cannot be so
+/// if the nodes that touch or stick hold all bodies. An answer for a body that touched nothing
+/// before is not accepted either, because a march moves it until it touches, and then its
+/// forces are more accurate.
 bool may_slide(const Increment &at);
 
-/// Is the present state the end of the increment? A body that slips wherever it touches could
-/// slip on with the same forces, so it is first moved back to its least displacement.
+/// Is the present state the end of the increment? A body that slips at all of its nodes could
+/// slip further with the same forces, so it is first moved back to its least displacement.
 bool ends_with_least_motion(Increment &at);
 
 /// Moves to the solution of the linear equations of the present states. False if they are
@@ -85,8 +86,8 @@ bool ends_with_least_motion(Increment &at);
 bool solve_for_states(Increment &at);
 /// The same for the gaps alone, without friction or if slip does not change the pressure.
 bool solve_normal(Increment &at);
-/// True if displacements are much smaller than those from which they were counted, whose
-/// round-off then is a large part of them. Measured with the nodes' own stiffness; K: its
+/// True if displacements are much smaller than the larger ones from which they were computed,
+/// so that round-off is a large part of them. Measured with the nodes' own stiffness; K: its
 /// diagonal.
 bool cancels(const Eigen::VectorXd &K, const Eigen::VectorXd &from, const Eigen::VectorXd &u);
 

@@ -24,25 +24,25 @@ public:
 
    /// Ranks of the nodes, the nearest of which has rank 0.
    const std::vector<Index> &rank() const { return rank_; }
-   /// Nodes in the nearest eighths.
+   /// Number of nodes in the nearest eighths.
    Index nodes(int eighths) const { return (rank_size() * eighths + 7) / 8; }
-   /// Fewest eighths that have as many nodes.
+   /// Fewest eighths with at least so many nodes.
    int eighths(Index nodes) const;
 
-   /// Eliminates all but the nearest eighths. False if that does not determine where the others
-   /// are.
+   /// Eliminates all but the nearest eighths. False if that does not determine the
+   /// displacements of the others.
    bool leave(int eighths);
    /// Rows of K in the order in which they are eliminated.
    const std::vector<Index> &rows() const { return rows_; }
    /// Number of rows that are eliminated before the nearest eighths.
    Index before(int eighths) const { return begin_[8 - eighths]; }
-   /// Stiffness of the rows that are left, in their order.
+   /// Stiffness of the rows that are kept, in their order.
    Eigen::MatrixXd stiffness(int eighths) const;
-   /// Loads on all rows, in their order, become: at the rows that are left what acts on these,
-   /// before them what locate() needs.
+   /// Condenses loads on all rows, in their order. Entries of the rows that are kept become the
+   /// loads on these, entries before them become data for locate().
    void condense(int eighths, Eigen::VectorXd &loads) const;
-   /// Finds from displacements at the rows that are left those before them, where the loads
-   /// that were condensed are (with the sign of b in K u = b).
+   /// Finds the displacements of eliminated rows from those of the rows that are kept. The
+   /// entries before the latter are the condensed loads (with the sign of b in K u = b).
    void locate(int eighths, Eigen::VectorXd &u) const;
 
 private:
@@ -59,16 +59,17 @@ private:
    std::vector<Step> steps_;
 };
 
-/** The problem of the nodes that may soon touch. The others bear nothing and are eliminated,
-    K_nn - K_nf K_ff⁻¹ K_fn. A last load pattern, different for each state, compensates the
-    round-off of the elimination. */
+/** The problem of the nodes that may soon touch. The others carry no forces and are eliminated,
+    K_nn - K_nf K_ff⁻¹ K_fn with n for near and f for far. A last load pattern, different for
+    each state, compensates the round-off of the elimination. */
 class NearContact
 {
 public:
    using Index = Eigen::Index;
 
    /// Keeps references to both and a product with K; `far` has left the eighths. InputError if
-   /// what is left is no reduced problem, since a motion of the bodies hardly moves it.
+   /// the rows that are kept are no reduced problem, because a motion of the bodies hardly
+   /// moves them.
    NearContact(const ReducedProblem &whole, const SymmetricProduct &times_K,
                const FarFirst &far, int eighths);
 
@@ -76,7 +77,7 @@ public:
    int eighths() const { return eighths_; }
    /// Number in the whole problem of a node.
    Index node(Index near) const { return nodes_[near]; }
-   /// The part's multipliers, from those of the whole problem.
+   /// Multipliers of the near problem, from those of the whole problem.
    Eigen::VectorXd loads(const Eigen::VectorXd &multipliers) const;
    /// Corrects the loads by the round-off of the near problem at a state. Returns false, and
    /// changes nothing, if nodes that are left out carry forces there.

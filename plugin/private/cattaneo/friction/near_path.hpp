@@ -30,7 +30,7 @@ private:
    ExactPath whole_;
    std::shared_ptr<NearContact> near_; // that the next is a path of
    std::unique_ptr<ExactPath> path_;
-   // Where it stands, as long as the near problem's loads hold for that, and for how many
+   // The near problem's state, as long as its loads hold for that state, and for how many
    // steps.
    std::optional<ContactState> part_;
    Eigen::VectorXd u_; // displacements of the whole there

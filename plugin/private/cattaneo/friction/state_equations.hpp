@@ -27,11 +27,11 @@ namespace cattaneo
     rows and columns are added to it (a border): M₀ x + P z = r₀, Q x + D z = r₁. There are
     three kinds.
 
-    * An unknown is no longer one, as where a node begins to stick: the new row says x = 0, the
-      new z is the force that its old equation leaves.
+    * An unknown is no longer one, as where a node begins to stick: the new row is x = 0, and
+      the new z is the residual force of its old equation.
     * An unknown is new: it is the new z, and the new row is its equation.
-    * An unknown has another equation, as where slip turns round: the new row is that equation,
-      the new z the force that the old one leaves.
+    * An unknown has another equation, as where slip reverses: the new row is that equation,
+      and the new z is the residual force of the old one.
 
     M₀⁻¹ P is kept as long as M₀. */
 class StateEquations
@@ -41,7 +41,7 @@ public:
    StateEquations(const Eigen::Ref<const Eigen::MatrixXd> &K, std::vector<FrictionBound> bound);
 
    Eigen::Index nodes() const { return n_; }
-   /// Another bound of a node, which the next set() takes up.
+   /// Another bound of a node, which the next set() uses.
    void set_bound(Eigen::Index node, const FrictionBound &bound)
    {
       bound_[node] = bound;
@@ -56,7 +56,7 @@ public:
    Eigen::Index normal_row(Eigen::Index node) const { return tangential_ ? n_ + node : node; }
    /// In contact a node without friction, or without a tangential unknown, does not stick …
    bool frictionless(Eigen::Index node) const { return !tangential_ || bound_[node].none(); }
-   /// … and this is its state after the displacements x: the sense is of no consequence.
+   /// … and this is its state after the displacements x. The sense of slip does not matter.
    NodeState frictionless_contact(Eigen::Index node, const Eigen::VectorXd &x) const;
    /// Changes the states of all nodes or of one. False if the equations would be singular: then
    /// nothing has changed.
@@ -65,8 +65,8 @@ public:
    /// A node in separation that does not move along the contact.
    bool pinned(Eigen::Index node) const { return pinned_[node]; }
 
-   /// Lets what was factored or bordered before leave no trace, to the last bit, in what
-   /// follows: the next set() keeps the factor only if it is that of its states.
+   /// From here on results do not depend, to the last bit, on earlier factors and borders: the
+   /// next set() keeps the factor only if it belongs to its states.
    void begin()
    {
       anew_ = true;
@@ -84,9 +84,9 @@ public:
    void solve_transposed(const Eigen::VectorXd &g, Eigen::VectorXd &y,
                          Eigen::VectorXd &z) const;
 
-   /// What round-off leaves of forces b + K x, row by row. That of the last call is known.
+   /// Round-off of the forces b + K x, row by row. The result of the last call is kept.
    const Eigen::VectorXd &round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const;
-   /// At most that in any row, without a product with K.
+   /// An upper bound of it in any row, without a product with K.
    double most_round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const
    {
       return arithmetic_.most(x, b);
@@ -110,7 +110,7 @@ private:
       Eigen::Index row, other;
       double factor;
    };
-   /// What may be bordered: an unknown that came, went, or answers to another equation.
+   /// A border: for an unknown that was added, removed, or has another equation.
    struct Border
    {
       Equation now;    // if present
