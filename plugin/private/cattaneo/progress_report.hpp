@@ -6,11 +6,11 @@
 namespace cattaneo
 {
 
-/// Tells a monitor of progress, no more often than it wants to hear of it.
+/// Reports progress to a monitor, no more often than the monitor asks for.
 class ProgressReport
 {
 public:
-   /// The work begins. The monitor must outlive this.
+   /// Starts the clock of the work. The monitor must outlive this.
    explicit ProgressReport(const Monitor &monitor) : monitor_(monitor) {}
 
    double seconds() const { return since(began_); }

@@ -8,18 +8,18 @@
 namespace cattaneo
 {
 
-/// Keeps the integrals about an axis of the last surface, as a body and its torsion need the
-/// same ones one after the other. Safe with several threads.
+/// Keeps the integrals about an axis of the last surface, because a body and its torsion need
+/// the same ones one after the other. Safe with several threads.
 class KeptRings
 {
 public:
    std::shared_ptr<const RingIntegrals> of(const SurfaceTrace &trace);
-   /// How often they were made.
+   /// How often the integrals were computed.
    long made() const { return made_; }
 
 private:
    std::mutex guard_;
-   std::vector<SurfaceElement> of_; ///< whose they are
+   std::vector<SurfaceElement> of_; ///< the surface that they belong to
    std::shared_ptr<const RingIntegrals> rings_;
    long made_ = 0;
 };

@@ -6,7 +6,8 @@ namespace cattaneo
 {
 
 /// A function G(x, s) = a + b ln|x - s| with a and b analytic for x and s that lie close to
-/// each other, of the sign of a distance: it is given |x - s| as well, with all its digits.
+/// each other. It gets |x - s| as an argument too, because the difference of x and s would lose
+/// digits.
 struct SurfaceKernel
 {
    double (*value)(double distance, double x, double s);
@@ -20,12 +21,11 @@ struct SurfaceKernel
     exact to round-off, about 1e-15 of the largest of its neighbours, whatever the ratios of the
     elements' sizes.
 
-    A panel is an element or a part of one. For two panels that are at least half as far from
-    each other as they are long, Gauss's rule is used with as many points as their distance
-    needs. For a panel with itself, or two neighbours of similar lengths, the variable is the
-    distance of x from s, or from the common end (Duffy). The singularity there is that of a
-    logarithm, which logarithmic_rule() integrates. For all other pairs the longer panel is
-    halved. */
+    A panel is an element or a part of one. For two panels whose distance is at least half of
+    their length, Gauss's rule is used, with a number of points that depends on the distance.
+    For a panel with itself, or two neighbours of similar lengths, the variable is the distance
+    of x from s, or from the common end (Duffy). The singularity is then logarithmic, and
+    logarithmic_rule() integrates it. For all other pairs the longer panel is halved. */
 Eigen::MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
                                  const SurfaceKernel &kernel);
 
@@ -39,8 +39,8 @@ SurfaceKernel ring_even();
 SurfaceKernel ring_odd();
 
 /// Integrals over one surface about an axis, with the kernels ring_even(), ring_odd(), and
-/// ring_odd() times r s, which torsion needs. All of them come from one mean for each pair of
-/// points.
+/// ring_odd() times r s, which torsion needs. All of them follow from one arithmetic-geometric
+/// mean for each pair of points.
 struct RingIntegrals
 {
    Eigen::MatrixXd even, odd, levered;

@@ -16,7 +16,7 @@ std::vector<Polygon> polygons_of(const HalfSpace &contact);
 
 double area(const Polygon &polygon);
 
-/// More digits, because the edges of a polygon cancel far away from it.
+/// More digits than a double, because far from a polygon the contributions of its edges cancel.
 using MoreDigits = long double;
 
 /// Integrals over a polygon of functions of the vector d = (x, y) from its points to another
@@ -33,10 +33,10 @@ struct KernelIntegrals
 /// The integrals at a point of the plane, inside or outside, in closed form.
 KernelIntegrals integrals_at(const Eigen::Vector2d &point, const Polygon &polygon);
 
-/** Integrals over two polygons, of the way from points of the second one to points of the first
-    one. In closed form, which keeps 1e-8 where edges of both are parallel to 1e-9 only, and
-    1e-10 else. Triangles that are far from each other take a rule of 16 points in each, which
-   is right to 2e-11. */
+/** Integrals over two polygons, of the vector from points of the second one to points of the
+    first one. They are in closed form, with an error of 1e-8 if edges of both are parallel only
+    within 1e-9, else 1e-10. For triangles that are far from each other a rule of 16 points in
+    each is used, with an error of 2e-11. */
 KernelIntegrals integrals_over(const Polygon &first, const Polygon &second);
 
 } // namespace cattaneo

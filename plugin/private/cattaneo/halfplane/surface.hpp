@@ -19,7 +19,7 @@ struct Surface
 {
    const HalfPlane &body;
    bool plane;
-   double nothing; ///< less is round-off
+   double nothing; ///< smaller distances are round-off
 
    Surface(const HalfPlane &of, const ContactLine &line)
       : body(of), plane(line.formulation == Formulation::plane), nothing(0)

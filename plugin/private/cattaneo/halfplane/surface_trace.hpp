@@ -10,8 +10,8 @@ namespace cattaneo
 
 /** An element of order k of a straight surface. Its functions φ are the polynomials of degree k
     in a parameter 0 <= t <= 1 that are 1 at one of the Gauss–Lobatto points and 0 at the
-    others. The same functions interpolate its place x(t) from those of its nodes, which
-    increase but may be anywhere between the ends. */
+    others. The same functions interpolate its place x(t) from the places of its nodes, which
+    increase along the element but need not be at the Gauss–Lobatto points. */
 struct SurfaceElement
 {
    std::vector<Eigen::Index> unknowns; ///< number of each node
@@ -58,7 +58,7 @@ private:
    std::vector<SurfaceElement> elements_;
 };
 
-/// The mass matrix of several components, which it does not couple, for the unknowns in `kept`:
+/// The mass matrix of several components, which are not coupled, for the unknowns in `kept`:
 /// number k times its size + i is row i of component k.
 Eigen::SparseMatrix<double> kept_of(const Eigen::SparseMatrix<double> &mass,
                                     const std::vector<int> &kept);

@@ -10,19 +10,20 @@ namespace cattaneo
     of its elements is the image of its reference element one to one:
 
     - it has an area, beyond the round-off of its coordinates;
-    - the determinant of its Jacobian is positive everywhere: a polynomial, also of curved
-      elements, whose Bernstein coefficients bound it from below; where they do not decide the
-      element is quartered [Johnen 2013];
+    - the determinant of its Jacobian is positive everywhere: it is a polynomial, also for
+    curved elements, and its Bernstein coefficients bound it from below; if they do not decide,
+    the element is divided into four [Johnen 2013];
     - it lies on the other side of each edge that it shares than its neighbour there. Readers
-      turn over what is numbered clockwise, so that a node that was dragged across an edge
-      leaves no negative determinant behind. (Not asked of hanging edges, nor across ranks.)
+    reverse elements that are numbered clockwise, so that a node that was dragged across an edge
+    does not show as a negative determinant. (This is not checked at hanging edges, nor across
+    ranks.)
 
     The message names the first such element by its number (from 0, as MFEM counts), attribute
     and centre, and says what to do. Collective on an mfem::ParMesh: the number is that of all
     ranks, and all throw. */
 void check_elements(mfem::Mesh &mesh);
 
-/// Those of the elements of this rank, by their numbers, whose own shape is not as above.
+/// Numbers of the elements of this rank whose own shape is not as above.
 std::vector<int> folded_elements(mfem::Mesh &mesh, const std::vector<int> &elements);
 
 } // namespace cattaneo

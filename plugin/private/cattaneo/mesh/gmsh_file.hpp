@@ -31,7 +31,7 @@ struct GmshMesh
    std::map<long, std::array<double, 3>> nodes;
    std::vector<Element> elements;
 
-   /// InputError for a number that is there already, or a place that is not finite.
+   /// InputError for a number that exists already, or a place that is not finite.
    void add_node(long number, const std::array<double, 3> &x);
    /// Adds an element of nodes that were added before (InputError). A quadrilateral of 8 nodes
    /// (16) gets a middle node, at the place that its geometry gives. Points are left out.
@@ -40,9 +40,9 @@ struct GmshMesh
    std::string text() const;
 };
 
-/** A mesh that Gmsh wrote in format 4.1 or 2.2, ASCII or binary. `size` of the file bounds what
-    can be in it. InputError, with the section, if the file is cut short, is of another version
-    or has numbers of more than 32 bits. */
+/** A mesh that Gmsh wrote in format 4.1 or 2.2, ASCII or binary. `size` of the file in bytes
+    limits the counts that are believed. InputError, with the section, if the file is cut short,
+    is of another version or has numbers of more than 32 bits. */
 GmshMesh read_gmsh(const std::string &file, long size);
 
 } // namespace cattaneo

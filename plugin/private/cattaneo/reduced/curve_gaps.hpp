@@ -11,10 +11,10 @@ namespace cattaneo
 /// to zero.
 struct CurveGaps
 {
-   Eigen::VectorXd moved;  ///< gaps of the outlines less those of the nodes' places
-   Eigen::VectorXd left;   ///< what curves that lines are not taken for, as they are as meshed
-                           ///< or kept polygons, would add
-   Eigen::VectorXd curved; ///< gaps of the outlines less those of the chords
+   Eigen::VectorXd moved;  ///< gaps between the outlines less gaps between the nodes' places
+   Eigen::VectorXd left;   ///< what curves would add that are not used, because lines are as
+                           ///< meshed or stay polygons
+   Eigen::VectorXd curved; ///< gaps between the outlines less gaps between the chords
 };
 
 /// Gaps of n nodes of a line in frames with these tangents (n × 2). `partner` has the node of

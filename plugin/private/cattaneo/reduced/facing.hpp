@@ -27,7 +27,8 @@ struct ElementCurve
 /// The box around a line, in a sentence.
 std::string extent(const ContactLine &line);
 
-/// All elements of a line. InputError if it has none, or one of another order than 1 to 8.
+/// All elements of a line. InputError if it has no elements, or one whose order is not from 1
+/// to 8.
 std::vector<ElementCurve> curves(const ContactLine &line, const std::string &what);
 
 /// The part from < s < to of an element of the first line that faces an element of the other.
@@ -51,7 +52,7 @@ struct FacingLines
    double opposite(const FacingPart &part, double s) const;
 };
 
-/// @a what begins the sentences about lines that do not fit.
+/// @a what begins the messages about lines that do not fit.
 FacingLines facing(const ContactLine &first, const ContactLine &other, const std::string &what);
 
 } // namespace cattaneo

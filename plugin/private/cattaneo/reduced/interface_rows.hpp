@@ -15,7 +15,8 @@ struct Side
    std::vector<int> nodes;
 };
 
-/// An interface after its sides were matched; its rows and all facts about them come from here.
+/// An interface after its sides were matched; its rows and all data about them are computed
+/// from this.
 struct MetInterface
 {
    const Interface *given = nullptr;
@@ -28,8 +29,8 @@ struct MetInterface
    Eigen::Index nodes() const { return static_cast<Eigen::Index>(mortar.nodes.size()); }
 };
 
-/// Finds the contact nodes of all interfaces, and fills `met`. If the side that should carry
-/// the nodes cannot, and none was named, the other side carries them.
+/// Finds the contact nodes of all interfaces, and fills `met`. If the side that should have the
+/// nodes cannot have them, and the user named none, the other side has them.
 std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
                                 const std::vector<CondensedBody> &bodies,
                                 std::vector<MetInterface> &met);

@@ -9,7 +9,7 @@ namespace cattaneo
 /// A node of a body's trace, over all bodies.
 using NodeOfBody = std::pair<int, int>;
 
-/// What a contact node sees of a node of a body's trace: in global components, each apart.
+/// The share of a node of a body's trace in a contact node, for each global component.
 struct TraceShare
 {
    NodeOfBody of;
@@ -23,7 +23,8 @@ struct ContactRow
    Eigen::Vector2d tangent{1, 0}; ///< of a line
    /// In space: rows are the tangents and the normal.
    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-   /// Of each tangent; false: the slave is held along it, and so is what it faces.
+   /// For each tangent; false: supports hold both the slave and the nodes that it faces along
+   /// it.
    std::array<bool, 2> slides{true, true};
    std::vector<TraceShare> shares; ///< the slave's own among them
    /// The nodes whose components, those along the tangents and the one across, relative
@@ -38,18 +39,17 @@ struct ContactRow
 /// Do supports hold a component of a contact node, in the order of its frame?
 bool holds(const CondensedBody &body, int node, int component);
 
-/** Which nodes relative displacements determine. Of two nodes that face each other alone either
-    may be it: the one that no support holds, then the softer one, since what is taken from its
-    stiffness is less and loses fewer digits. Where one of them is held in a component the other
-    is determined there. A row along a tangent of which both are held does not slide. */
+/** Chooses the nodes that relative displacements determine. If two nodes face only each other,
+    either may be chosen: the one without a support, else the softer one, because subtraction
+    from its stiffness loses fewer digits. If one of them is held in a component, the other is
+    determined there. A row along a tangent in which both are held does not slide. */
 void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<ContactRow> &rows);
 
-/** How contact displacements of bodies and relative displacements of contact nodes make each
-    other: U = E {u; y} and u = G U, where U are all components of the bodies' traces that are
+/** The maps between contact displacements of bodies and relative displacements of contact
+    nodes: U = E {u; y} and u = G U, where U are all components of the bodies' traces that are
     not held, one body after the other, each {v; w} in its own frames; u the relative
-    displacements {v; w} without those that do not slide; y the components of U that are no
-    dependent ones. Of bodies that twist there is one component, v, and the share of x counts.
- */
+    displacements {v; w} without those that do not slide; y are the independent components of U.
+    Bodies that twist have one component, v, and the share of x counts. */
 struct RelativeDisplacement
 {
    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;

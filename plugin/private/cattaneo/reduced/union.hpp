@@ -10,8 +10,8 @@ namespace cattaneo
 struct UnionRows
 {
    std::vector<ContactRow> rows;
-   /// Numbers of the bodies that interfaces join, those that touch a rigid obstacle left out
-   /// (nothing moves them together without moving them against it).
+   /// Numbers of the bodies that interfaces join. Bodies that touch a rigid obstacle are left
+   /// out, because a motion of the whole group moves them against it.
    std::vector<std::vector<int>> groups;
    std::vector<int> free, tied; ///< numbers of rows
 };
@@ -20,9 +20,9 @@ struct UnionRows
 struct Block
 {
    Eigen::MatrixXd S, f, H;
-   Eigen::MatrixXd motions;                          ///< that nothing resists, orthonormal
-   std::vector<int> held;                            ///< rows that no body moves
-   std::vector<InterfaceReport::Moved> moved;        ///< see there
+   Eigen::MatrixXd motions;                   ///< motions that nothing resists, orthonormal
+   std::vector<int> held;                     ///< rows that no body moves
+   std::vector<InterfaceReport::Moved> moved; ///< see there
    std::shared_ptr<const Reduction::Union> way_back; ///< to the bodies' displacements
 };
 
@@ -46,13 +46,13 @@ Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int>
 /// Motions of the bodies of a group together that nothing resists, as orthonormal columns in U.
 Eigen::MatrixXd common_motions(const std::vector<CondensedBody> &bodies,
                                const std::vector<int> &group, const RelativeDisplacement &map);
-/// Free motions of all bodies without the directions of Y, which they span, as columns in U.
+/// Free motions of all bodies, orthogonal to the common motions Y among them, as columns in U.
 Eigen::MatrixXd motions_apart(const std::vector<CondensedBody> &bodies,
                               const RelativeDisplacement &map, const Eigen::MatrixXd &Y);
 
-/// What a body is called in a sentence.
+/// The name of a body in messages.
 std::string called(const std::vector<CondensedBody> &bodies, int body);
-/// What some of them are called.
+/// The names of some bodies in messages.
 std::string called(const std::vector<CondensedBody> &bodies, const std::vector<int> &some);
 
 } // namespace cattaneo

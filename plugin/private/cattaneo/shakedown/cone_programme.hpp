@@ -28,11 +28,11 @@ struct ConeProgramme
    StuckForces loads;                        ///< q0, q1, p0, p1 with θ for λ, in columns
    /// Optional bounds r_low ≤ r ≤ r_high, size c·n; none if empty.
    Eigen::VectorXd r_low, r_high;
-   /// Leave r out of the tangential forces: only the change of pressure is allowed for.
+   /// Leave r out of the tangential forces, so that it only changes pressures.
    bool pressure_only = false;
    double ceiling = 0; ///< θ is searched up to here, in units of theta_scale
-   /// Residual forces are searched up to here, in typical forces: where friction can wedge the
-   /// contact, states without bound are admissible and the iterates would follow them for ever.
+   /// Residual forces are searched up to here, in typical forces: if friction can lock the
+   /// contact, admissible states have no bound, and the iterates would grow without end.
    double reach = 1e7;
 
    Eigen::VectorXd force_scale; ///< a typical force of each node, positive, size n
@@ -46,19 +46,19 @@ struct ConeProgramme
 };
 
 /// The cones of the friction of a problem under @a loads; residual forces and scales are left
-/// open. InputError for a law that is not concave: what holds at two vertices need not hold on
-/// the way between them.
+/// open. InputError for a law that is not concave, because a condition that holds at two
+/// vertices need not hold between them.
 ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &loads);
 
-/// Motions dual to the cones, of every column: `limit` ≥ |slip| is what multiplies the bound.
+/// Motions dual to the cones, for every column: `limit` ≥ |slip| multiplies the bound.
 struct ConeMechanism
 {
    Eigen::MatrixXd slip;  ///< c·n × columns
    Eigen::MatrixXd limit; ///< n × columns
 
-   /// f limit + a slip, what multiplies p.
+   /// f limit + a slip, the factor of p.
    Eigen::MatrixXd opening(const ConeProgramme &programme) const;
-   /// As motions at the load vertices, of which there are so many.
+   /// The same as motions at the load vertices; `vertices` is their number.
    CollapseMechanism at_vertices(const ConeProgramme &programme, Eigen::Index vertices) const;
 };
 
@@ -67,14 +67,14 @@ struct ConeSettings
    int max_iterations = 300;
    /// Stopping tolerance of the scaled optimality conditions.
    double tolerance = 1e-10;
-   /// Every cone is left by this much of the node's typical force, so that the point that is
-   /// found stays inside after rounding and the small constraint violations of the solver.
+   /// Every cone is narrowed by this share of the node's typical force, so that the solution
+   /// stays inside in spite of rounding and small violations of the solver.
    double margin = 1e-10;
-   /// Called in every iteration with its number; false ends it with the point at hand.
+   /// Called in every iteration with its number; false ends it with the present point.
    std::function<bool(int)> goes_on;
 };
 
-/// Where to start from: a residual state and, of an earlier solution, its mechanism.
+/// Start of the solver: a residual state and, from an earlier solution, its mechanism.
 struct ConeStart
 {
    double theta = 0;
@@ -145,13 +145,14 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
        0 ≤ Σ_j limit·(f p + s) + slip·(q + a p)
          = Σ_j opening·(p0 + θ p1) + slip·(q0 + θ q1) + limit·(s0 + θ s1),
 
-    so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
-    is first made to satisfy both conditions to round-off, by the smallest changes in the norm
-    of the cones' barrier. It is repaired as it is given, and once moved inside of its cones by
-    the least share of its limits (1e-10 to 1e-5) that leaves room for the changes; the lower
-    bound counts. The rest of the first condition is multiplied by @a slip_size, a bound of the
-    slips, and added, as is the round-off of the works. Infinite if W1 ≥ 0 or if the mechanism
-    cannot be repaired. The mechanism comes back scaled to W1 = -1. */
+    so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism comes from a solver with small residuals.
+    First it is changed to satisfy both conditions to round-off, by the smallest changes in the
+    norm of the cones' barrier. This is done twice: from the mechanism as it is given, and after
+    it was moved into its cones by the least share of its limits (1e-10 to 1e-5) that leaves
+    room for the changes. The smaller of both bounds is used. The remaining residual of the
+    first condition, multiplied by @a slip_size, a bound of the slips, is added, and so is the
+    round-off of the works. Infinite if W1 ≥ 0 or if the mechanism cannot be repaired. The
+    mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
                           ConeMechanism &mechanism, double slip_size);
 

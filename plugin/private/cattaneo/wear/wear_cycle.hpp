@@ -9,18 +9,18 @@ namespace cattaneo
 /// The effect of one cycle on each node (all of size n).
 struct WearCycle
 {
-   Eigen::VectorXd depth; ///< that it loses
-   Eigen::VectorXd loss;  ///< energy that friction takes
+   Eigen::VectorXd depth; ///< depth that it loses
+   Eigen::VectorXd loss;  ///< energy that it loses by friction
    /// Nodal force that wear can take away: the mean along its slip of the force above the
    /// threshold. A node that never exceeds the threshold has its mean force along its slip, and
    /// a node that does not slip its mean force in time.
    Eigen::VectorXd force;
-   Eigen::VectorXd opening; ///< least opening, 0 if it bears at all
-   double negligible = 0;   ///< depth that round-off may wear
+   Eigen::VectorXd opening; ///< least opening, 0 if it touches at some time
+   double negligible = 0;   ///< depth that may be due to round-off
    SlipRange range;
    MarchReport report;
-   /// From repeated(): the largest difference by which a node lost more or less in the cycles
-   /// on the way there.
+   /// From repeated(): the largest difference of a node's depth between the cycles that were
+   /// marched.
    double passing = 0;
    /// From repeated(): by how much more a node lost in the first of these cycles.
    Eigen::VectorXd lag;
@@ -45,20 +45,20 @@ public:
 
    bool begins(const ContactState &contact) const { return contact.time < start_; }
    double start() const { return start_; }
-   /// The opening part, or one cycle, with what has worn off so far. With `update` the gap
-   /// takes in the wear of each piece.
+   /// Marches the part before the cycle, or one cycle, with the wear so far. With `update` the
+   /// gap takes in the wear of each piece.
    WearCycle opening(ContactState &contact, const Eigen::VectorXd &depth);
    WearCycle march(ContactState &contact, const Eigen::VectorXd &depth, bool update);
-   /// Cycles at this depth, which wears no more, until they repeat themselves: until `cycles`
-   /// more would change what a cycle wears by no more than a share of the largest depth, or of
-   /// `least` if that is more. Not found if they do not within 30.
+   /// Marches cycles at this fixed depth until they repeat themselves: until `cycles` more of
+   /// them would change the wear of a cycle by no more than a share of the largest depth, or of
+   /// `least` if that is more. Not found if 30 cycles do not suffice.
    WearCycle repeated(ContactState &contact, const Eigen::VectorXd &depth, double share,
                       double least = 0, double cycles = 1);
-   /// The contact as it is when the gap takes in what has worn off, with its loads as they are.
-   /// False, and the contact as it was, if there is none.
+   /// Moves the contact to its equilibrium at the worn gap, under the same loads. Returns
+   /// false, and leaves the contact unchanged, if none is found.
    bool settle(ContactState &contact, const Eigen::VectorXd &depth);
 
-   long marched = 0; ///< cycles, to their end
+   long marched = 0; ///< cycles marched to their end
    Counters counters;
 
 private:
@@ -75,8 +75,8 @@ private:
    const WornIncrementObserver watch_;
 };
 
-/// The wear of `cycles` cycles like this one with the pressures at their end, size n, ≥ 0.
-/// Empty if these were not found.
+/// The wear of `cycles` cycles like this one, computed with the pressures at their end, size n,
+/// ≥ 0. Empty if these pressures were not found.
 Eigen::VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle,
                               double cycles);
 
