@@ -82,7 +82,8 @@ private:
    }
    Value signed_power()
    {
-      check(++count_ < 1000); // of brackets within each other too: no stack overflows
+      check(++count_ <
+            1000); // also limits nested brackets, so that the stack does not overflow
       if (takes('+')) { return signed_power(); }
       if (takes('-'))
       {

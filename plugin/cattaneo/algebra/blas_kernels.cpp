@@ -27,15 +27,15 @@ bool has_avx2()
 void *openblas_function([[maybe_unused]] const char *name)
 {
 #if defined(CATTANEO_USE_LAPACK) && __has_include(<dlfcn.h>)
-   // The library that dgemm_ lies in, and those that it needs. A program may know dgemm_ by a
-   // place of its own; then what it asks first is searched.
+   // The library that contains dgemm_, and those that it needs. In a program dgemm_ may be a
+   // stub at another address; then the library that the program finds first is searched.
    Dl_info from = {};
    void *library = dladdr(reinterpret_cast<void *>(&dgemm_), &from) == 0
                       ? nullptr
                       : dlopen(from.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
    if (!library) { return dlsym(RTLD_DEFAULT, name); }
    void *function = dlsym(library, name);
-   dlclose(library); // it stays, as long as we do
+   dlclose(library); // never closed, so that the pointers stay valid
    return function;
 #else
    return nullptr;
@@ -44,7 +44,7 @@ void *openblas_function([[maybe_unused]] const char *name)
 
 std::string better_blas_kernels(const std::string &name, bool has_avx2)
 {
-   // These work with SSE, two numbers at a time. (AVX alone, Sandybridge and the like, is not
+   // These kernels use SSE, two numbers at a time. (AVX alone, Sandybridge and the like, is not
    // far below AVX2.)
    static const std::set<std::string> narrow = {
       "Katmai",    "Coppermine",   "Northwood",     "Prescott", "Banias", "Atom",    "Core2",

@@ -49,7 +49,8 @@ void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
    const int n = static_cast<int>(rows()), columns = static_cast<int>(x.cols());
    if (n == 0 || columns == 0) { return; }
    if (row_scale_.size()) { x = row_scale_.asDiagonal() * x; }
-   // OpenBLAS copies the factors for two columns and more, which pays from a few on.
+   // OpenBLAS copies the factors if there are two columns or more, which pays only for several
+   // columns.
    const int stride = columns > 1 ? static_cast<int>(x.outerStride()) : n,
              together = columns > 8 ? columns : 1;
    int info = 0;

@@ -47,7 +47,8 @@ double lanczos(Index n, Operator times)
       const auto basis = V.leftCols(k + 1);
       for (int twice = 0; twice < 2; ++twice) { v -= basis * (basis.transpose() * v); }
       below[k] = v.norm();
-      // The round-off of a vector in the span of those before is no new direction.
+      // If the vector lies in the span of those before, the rest is round-off and no new
+      // direction.
       const double round_off = 1e-12 * diagonal.head(k + 1).cwiseAbs().maxCoeff();
       const bool last = k + 1 == n || !(below[k] > round_off);
       if (last || (k >= 7 && (k & (k + 1)) == 0)) // after 8, 16, 32, … vectors

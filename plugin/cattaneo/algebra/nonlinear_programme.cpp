@@ -15,7 +15,7 @@ namespace cattaneo
 namespace
 {
 
-/// A programme as Ipopt asks for it.
+/// A programme in Ipopt's interface.
 class AskedByIpopt : public Ipopt::TNLP
 {
    using Index = Ipopt::Index;
@@ -153,7 +153,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application(const ProgrammeSettings &se
    return app;
 }
 
-/// What it means that a programme was not solved.
+/// The reason why a programme was not solved, for messages.
 std::string in_words(Ipopt::ApplicationReturnStatus status, int max_iterations)
 {
    using namespace Ipopt;

@@ -15,7 +15,8 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
    std::vector<Index> used;
    VectorXd x = VectorXd::Zero(G.cols());
    VectorXd r = g;
-   // The residual may be tiny: at right angles to the edges used for its own size.
+   // The residual may be tiny. Being perpendicular to the edges in use is judged relative to
+   // its own size.
    const auto polish = [&]
    {
       r = g - G * x;
@@ -27,8 +28,8 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
    {
       Index best = 0;
       const double slope = (G.transpose() * r).maxCoeff(&best);
-      // By the size of the residual: where friction is small the edges are almost at right
-      // angles to it.
+      // Relative to the size of the residual, because with little friction all edges are almost
+      // perpendicular to it.
       if (r.norm() <= 1e-13 * scale || slope <= 1e-13 * r.norm() * G.col(best).norm())
       {
          break;
@@ -68,7 +69,7 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
          used = kept;
          if (used.empty()) { break; }
       }
-      // Otherwise round-off would choose edges that are at right angles to it already.
+      // Otherwise round-off would choose edges that are perpendicular to it already.
       polish();
    }
    return {x, r};

@@ -25,9 +25,9 @@ const Threads &threads()
    return found;
 }
 
-/// Some 20 milliseconds of one thread: an LU factor of 1,400 rows, a product of 1,000. Below,
-/// two threads that have two processors to themselves win a third at most, and where
-/// another program is at work each call waits for it, some milliseconds.
+/// About 20 milliseconds of one thread: an LU factor of 1,400 rows, or a product of 1,000. For
+/// less work two threads with two processors of their own save at most a third of the time, and
+/// if another program runs, each call waits some milliseconds for it.
 constexpr double worth_sharing = 1e9;
 
 std::mutex guard;

@@ -58,7 +58,8 @@ QuadratureRule make_gauss_rule(int points)
 
 const QuadratureRule &gauss_rule(int points)
 {
-   // Made when needed, as all of them together take as long as a small study.
+   // Each rule is made when first needed, because all of them together take as long as a small
+   // study.
    static std::array<QuadratureRule, 64> rules;
    static std::array<std::once_flag, 64> made;
    QuadratureRule &rule = rules.at(points - 1);

@@ -115,7 +115,7 @@ struct SparseFactor::Implementation
    virtual ~Implementation() = default;
    /// L22.
    virtual Eigen::MatrixXd trailing_factor() const = 0;
-   /// For each of its rows the number of the trailing row (0 … trailing - 1) it stands for.
+   /// For each of its rows the number of the trailing row, 0 … trailing - 1.
    virtual std::vector<int> trailing_order() const = 0;
    /// L22 L22ᵀ x
    virtual Eigen::VectorXd trailing_product(const Eigen::VectorXd &x) const = 0;
@@ -133,7 +133,8 @@ struct TrailingColumn
    int first;
    const double *values;
 
-   /// The part of x that the column meets. If it is dense, that is all from the diagonal down.
+   /// The entries of x in the rows of the column. In a dense column these are all from the
+   /// diagonal down.
    template <class Visitor>
    void visit_rows(Visitor visit) const
    {
@@ -188,7 +189,7 @@ class EigenFactor : public ByColumns<EigenFactor>
    using Sparse = Eigen::SparseMatrix<double>;
    using Natural = Eigen::NaturalOrdering<int>;
 
-   /// LDLᵀ that tells where its first pivot that is not positive is.
+   /// LDLᵀ that returns the place of its first pivot that is not positive.
    struct Diagnosis : Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Natural>
    {
       int first_bad(const Sparse &lower)
@@ -287,8 +288,8 @@ public:
 /** While it lives, OpenMP regions of the libraries we call run on one thread. CHOLMOD asks for
     four threads at several small loops of every supernode, whatever OMP_NUM_THREADS says;
     waking them takes as long as the factorisation itself (17,000 dofs: 50 ms instead of 26 ms;
-    260,000: 1.5 s instead of 1.1 s). The parallel part that pays is in BLAS, and not concerned.
-    Whether there is an OpenMP runtime is known to the loader only. */
+    260,000: 1.5 s instead of 1.1 s). The parallel part that pays is in BLAS, and stays
+    parallel. Only at run time is it known whether there is an OpenMP library. */
 class OneOpenMPThread
 {
    using Get = int (*)();
@@ -346,7 +347,7 @@ class CholmodFactor : public ByColumns<CholmodFactor>
    /// ones. False if CHOLMOD has no METIS, or METIS fails.
    bool dissect(const LowerTriangle &K, const std::vector<int> &nodes, std::vector<int> &order)
    {
-      // Whether CHOLMOD was built with METIS is known to the loader only.
+      // Only at run time is it known whether CHOLMOD was built with METIS.
       decltype(&cholmod_metis) metis = nullptr;
 #if __has_include(<dlfcn.h>)
       metis = reinterpret_cast<decltype(&cholmod_metis)>(dlsym(RTLD_DEFAULT, "cholmod_metis"));

@@ -10,7 +10,7 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Two blocks are in the nearest memory together.
+/// Size of a block, such that two blocks fit into the first cache.
 static constexpr int block_width = 32;
 using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
                             block_width, block_width>;
@@ -33,7 +33,7 @@ void mirror_lower(Eigen::Ref<MatrixXd> M)
 
 double largest_skew(const Eigen::Ref<const MatrixXd> &A, const Eigen::Ref<const MatrixXd> &B)
 {
-   // If both are one matrix, one triangle is enough.
+   // If A and B are the same matrix, one triangle is enough.
    const bool one = A.data() == B.data() && A.rows() == B.rows();
    double largest = 0;
    for (Index j = 0; j < A.cols(); j += block_width)

@@ -14,12 +14,12 @@ namespace
 
 const double degree = std::acos(-1.0) / 180;
 
-/// How the boundary goes on from a node at which the line ends in the direction `out`. `bend`
+/// How the boundary continues from a node at which the line ends in the direction `out`. `bend`
 /// is the angle between the line's last two elements.
 LineEnd goes_on(const std::vector<WayOn> &ways, int node, const Eigen::Vector2d &out,
                 double bend)
 {
-   double straightest = -2; // no way on is known
+   double straightest = -2; // it is not known how the boundary continues
    for (const WayOn &way : ways)
    {
       if (way.node == node)
@@ -33,8 +33,8 @@ LineEnd goes_on(const std::vector<WayOn> &ways, int node, const Eigen::Vector2d 
    return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
 }
 
-/// Elements that lie on one another without being joined: their nodes would bear side by side,
-/// and have two partners each.
+/// Refuses elements that coincide without being joined: their nodes would share the load, and
+/// each would have two partners.
 void check_joined(const ContactLine &line, const std::string &where)
 {
    // Sorted along a direction that no mesh prefers, so that few nodes are near each other.
@@ -121,7 +121,7 @@ std::array<LineEnd, 2> ends_of(const std::vector<const Segment *> &chain, bool l
    if (loop) { return {LineEnd::smooth, LineEnd::smooth}; }
    const auto bend = [&](std::size_t a)
    {
-      return a + 1 < chain.size() // else no next element: no bend
+      return a + 1 < chain.size() // without a next element: no bend
                 ? std::acos(std::clamp(
                      chain[a]->back().node.tangent.dot(chain[a + 1]->front().node.tangent),
                      -1.0, 1.0))
@@ -232,7 +232,8 @@ double off_chord(const LineElement &element)
 }
 
 /// Gives straight elements the smooth curve on which their ends lie. If other elements of the
-/// chain are curved the mesh knows of curves, and straight elements are meant to be straight.
+/// chain are curved, the mesh has curved elements where its curves are, so its straight
+/// elements are meant to be straight.
 void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chain, bool loop,
                 const std::vector<WayOn> &ways)
 {

@@ -21,7 +21,8 @@ void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index 
    M(positions, Eigen::all) = dense;
 }
 
-/// The line meets its supports, and the rows in its frames that these hold.
+/// Turns the frames of the line's nodes onto their supports. Returns the rows, in these frames,
+/// that the supports hold.
 std::vector<int> align(ContactLine &line, const ContactDofs &contact)
 {
    const std::vector<int> &held = contact.held;
@@ -46,8 +47,9 @@ std::vector<int> align(ContactLine &line, const ContactDofs &contact)
    return rows;
 }
 
-/// The frame of a node that has the axes which supports hold. A support is refused if its angle
-/// to the surface is more than 10 degrees away from both 0 and 90.
+/// The frame of a node, turned such that the directions that supports hold are among its axes.
+/// A support is refused if its angle to the surface is more than 10 degrees away from both 0
+/// and 90.
 Eigen::Matrix3d on_supports(const Eigen::Vector3d &normal, const std::array<bool, 3> &held,
                             const std::string &where)
 {
@@ -64,7 +66,7 @@ Eigen::Matrix3d on_supports(const Eigen::Vector3d &normal, const std::array<bool
            ", and its angle to the surface must be within 10 degrees of 0 or 90");
    const Eigen::Vector3d n = across ? Eigen::Vector3d((normal - along * e).normalized())
                                     : Eigen::Vector3d(std::copysign(1.0, along) * e);
-   // Along the normal: the two tangents are alike to the support.
+   // The support holds the normal, or all but the normal, so both tangents are equivalent.
    if (!across) { return frame_of(n); }
    Eigen::Matrix3d frame;
    frame << e.transpose(), n.cross(e).transpose(), n.transpose();
@@ -226,7 +228,8 @@ void refuse_motion(const Trace &trace, int position, const std::string &how)
 namespace
 {
 
-/// What a condensation found, in the frames of the body's trace, which knows its supports.
+/// The results of a condensation in the frames of the body's trace, which are turned to its
+/// supports.
 CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads,
                         const ContactDofs &contact, Condensation found)
 {
@@ -250,8 +253,8 @@ CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads
    equilibrium.impose_on_forces(found.clamped.forces);
    const FrameChange frames = frames_of(result);
    result.S = frames.both(std::move(found.S));
-   // Displacements change with the frames as forces do, but for those of torsion, r times the
-   // twist.
+   // Displacements change with the frames as forces do, except in torsion, where they are r
+   // times the twist.
    const Eigen::MatrixXd &motions = equilibrium.motions();
    const bool twists = result.line.formulation == Formulation::torsion;
    result.free_motions = twists ? thin_qr(frames.inverse().rows(motions)).Q

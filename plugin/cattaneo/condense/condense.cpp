@@ -132,7 +132,7 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
 }
 
 /// InputError for a load whose displacements are so large that their forces, sums of |K||U|,
-/// are lost in round-off. Such a load moves a part that only round-off holds, as a part on a
+/// are lost in round-off. Such a load moves a part that only round-off holds: a part on a
 /// single node, or a body without a support.
 void require_held(const FactoredStiffness &of, const AssembledBody &body, const BodyLoad &load,
                   const Eigen::VectorXd &forces, const Eigen::VectorXd &U)
@@ -156,7 +156,8 @@ void require_held(const FactoredStiffness &of, const AssembledBody &body, const 
            "pushes (a part held by a single node can turn)");
 }
 
-/// Loads of a body whose contact is clamped, and what is kept of them for recovery.
+/// Effects of the loads of a body whose contact is clamped, with the data for the displacements
+/// inside.
 ClampedLoads clamp(const AssembledBody &body, FactorSolver &solver, Counters &counters)
 {
    const std::vector<BodyLoad> &loads = body.loads;
@@ -226,8 +227,9 @@ void require_in_place(const Trace &trace, const DofPlaces &places)
    }
 }
 
-/** A body whose blocks move: those of its solver are held, at d. With the forces of clamped
-    loads F of all, the blocks' motions among them, and H by the same,
+/** A body whose blocks move. In its solver the blocks are held, at the displacements d. F are
+    the clamped forces of all loads, among them the blocks' motions, and H is their response.
+    Then
 
        d = H_dd⁻¹ (V ℓ - F_dᵀ u - H_dl ℓ),
 

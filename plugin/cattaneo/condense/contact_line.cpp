@@ -169,7 +169,7 @@ Eigen::MatrixX2d ContactLine::bulges() const
             const Eigen::Vector2d from = element.points.col(0);
             const Eigen::Vector2d chord = element.points.rightCols(1) - from,
                                   e = places.row(node).transpose() - from;
-            // Across the chord, wherever along it the node is.
+            // Perpendicular to the chord, at whatever place along it the node is.
             const Eigen::Vector2d right(chord[1], -chord[0]);
             all.row(node) = right.dot(e) / right.squaredNorm() * right;
          }
@@ -287,8 +287,8 @@ ContactLine joined(const std::vector<ContactLine> &lines)
                if (node >= 0) { node += chain.first - from; }
             }
          }
-         // The elements are those of the lines. A trace that has lost a node has no elements
-         // left.
+         // The elements are those of the lines. If a node of a line was left out, the result
+         // has no elements.
          if (!whole)
          {
             chain.elements.clear();

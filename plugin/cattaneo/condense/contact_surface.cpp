@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// What a node has of a face: its weight ∫φ dA, and ∫φ n dA, the normal by the order of nodes.
+/// Contribution of a face to a node: the weight ∫φ dA, and ∫φ n dA with the normal by the order
+/// of nodes.
 struct FaceShare
 {
    double weight = 0;
@@ -109,7 +110,7 @@ Matrix3d frame_of(const Vector3d &normal)
    int axis = 0;
    for (int c : {1, 2})
    {
-      // More than round-off nearer to the surface.
+      // Nearer to the surface by more than round-off.
       if (std::abs(normal[c]) < std::abs(normal[axis]) - 1e-9) { axis = c; }
    }
    Matrix3d frame;

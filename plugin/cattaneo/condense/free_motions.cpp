@@ -45,7 +45,7 @@ public:
       const Eigen::MatrixXd rest = here - M * (M.transpose() * here);
       return at_rest(Q, rest / here.norm());
    }
-   /// How far a motion of the part that they can do moves each block, by numbers of blocks.
+   /// By how much a motion of the part, which its blocks allow, moves each block.
    std::vector<std::pair<std::size_t, double>> amplitudes(const Eigen::VectorXd &motion) const
    {
       std::vector<std::pair<std::size_t, double>> all;

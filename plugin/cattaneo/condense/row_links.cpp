@@ -103,7 +103,7 @@ std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
          }
       }
    }
-   // The direction t of the column that is longest, and n across it.
+   // The direction t of the longest column, and n perpendicular to it.
    Eigen::Vector2d t = Eigen::Vector2d::Zero();
    for (const auto &[column, entries] : beside)
    {
@@ -113,14 +113,14 @@ std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
    if (longest == 0) { return std::nullopt; }
    t /= longest;
    const Eigen::Vector2d n(-t[1], t[0]);
-   // Along an axis it is a row of its own, which is_linked() knows.
+   // Along an axis it is a single row, which is_linked() recognizes.
    if (std::min(std::abs(n[0]), std::abs(n[1])) < 1e-12) { return std::nullopt; }
    for (const auto &[column, entries] : beside)
    {
       if (std::abs(n.dot(entries)) > 1e-12 * longest) { return std::nullopt; }
    }
    const double size = block.norm(), diagonal = n.dot(block * n);
-   // A bar on a slope holds nothing across it: that is no support.
+   // A bar at an angle has no stiffness across its direction, and is no support.
    if (std::abs(t.dot(block * n)) > 1e-12 * size || diagonal <= 1e-14 * size)
    {
       return std::nullopt;

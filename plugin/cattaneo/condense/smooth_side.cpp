@@ -19,23 +19,23 @@ double cross(const Vector2d &a, const Vector2d &b)
    return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Number of vertices that are added beyond an end to continue the side. It is more than the
-/// length of a run of turns that decides.
+/// Number of vertices that are added beyond an end to continue the side. It is larger than the
+/// longest run of turns that is looked at.
 constexpr int beyond_end = 8;
 /// Number of vertices on each side of a vertex that tell whether it belongs to a profile that
 /// turns to and fro.
 constexpr int around_profile = 8;
 
-/** A side without ends where it has none: loops and mirror images go on beyond them. */
+/** A side that continues beyond its ends if it is a loop or has a mirror image there. */
 class OpenSide
 {
 public:
    explicit OpenSide(const SidePolygon &side);
    std::vector<EdgeBend> bends();
-   /// Does the curve with its bends go on beyond an end as the assumed mirror image? True
-   /// without an image.
+   /// Does the curve with these bends continue smoothly into the assumed mirror image at an
+   /// end? True without an image.
    bool meets_image(bool end) const;
-   /// To be called after bends(): arcs to which vertices may belong that it has taken for
+   /// To be called after bends(): arcs that may include vertices which bends() has taken for
    /// corners.
    std::vector<EdgeBend> possible() const;
 
@@ -84,7 +84,7 @@ private:
    std::vector<bool> steady_, corner_, joined_;
    std::vector<bool> distinct_; ///< corners by the angle or by the vertices beside them
    std::vector<int>
-      joint_; ///< -1: of an arc before and a straight flank after, 1: of the other
+      joint_; ///< -1: joint of an arc before and a straight flank after, 1: the reverse
 };
 
 OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
@@ -258,7 +258,7 @@ bool OpenSide::find_corners()
          if (!left && !right) { is_corner = !inside(i); }
          else
          {
-            // A neighbour that tells nothing counts like the other one.
+            // A neighbour without information counts like the other neighbour.
             const double on_left = curvature_[left ? i - 1 : i + 1],
                          on_right = curvature_[right ? i + 1 : i - 1];
             const double expected = arc(i - 1, on_left) + arc(i, on_right);
@@ -283,7 +283,7 @@ void OpenSide::find_short_runs()
    const auto counts = [&](int i)
    {
       if (i < 1 || i >= last() || corner_[i]) { return false; }
-      // Corners tell nothing of what is beside them.
+      // Corners give no information about the edges beside them.
       const auto turn = [&](int j)
       { return j > 0 && j < last() && !distinct_[j] ? std::abs(turn_[j]) : 0; };
       const double beside = std::max(turn(i - 1), turn(i + 1));
@@ -442,7 +442,7 @@ EdgeBend OpenSide::bend(int e) const
       const double across = slope(i, j);
       const double before = left ? slope(i - 1, i) : HUGE_VAL,
                    after = right ? slope(j, j + 1) : HUGE_VAL;
-      // At a jump one side knows nothing of it.
+      // At a jump of the curvature only one side is used.
       if (std::min(std::abs(before), std::abs(after)) < 0.3 * std::abs(across))
       {
          if (std::abs(before) < std::abs(after)) { one_sided(i, i - 1, true); }
@@ -492,7 +492,7 @@ void OpenSide::classify()
    distinct_ = corner_;
    find_short_runs();
    drop_profile();
-   find_short_runs(); // of what a profile has left
+   find_short_runs(); // of the edges that are no profile
    find_joints();
 }
 
@@ -532,7 +532,7 @@ bool OpenSide::meets_image(bool end) const
    // A flank between the tip and an arc must be normal to the plane.
    if (joint_[near] != 0) { return std::abs(turn_[tip]) <= flat(tip); }
    if (!tells(near)) { return true; }
-   // The turn at the tip if the curvature beside it goes on, constantly or linearly.
+   // The turn at the tip if the curvature beside it continues, constantly or linearly.
    const int edge = end ? tip - 1 : tip;
    const double alike = 2 * arc(edge, curvature_[near]);
    double linear = alike;
@@ -608,8 +608,7 @@ OpenSide settled(SidePolygon side)
 
 double EdgeBend::off(double s) const
 {
-   // The curve is the arc of a circle with the mean of both angles, plus a cubic that leans to
-   // one end.
+   // The curve is the arc of a circle with the mean of both angles, plus an asymmetric cubic.
    const double mean = 0.5 * (begin + end), sine = std::sin(mean);
    const double arc = 2 * sine * s * (1 - s) /
                       (std::sqrt(1 - 4 * sine * sine * (s - 0.5) * (s - 0.5)) + std::cos(mean));

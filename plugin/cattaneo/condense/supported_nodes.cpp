@@ -39,7 +39,7 @@ std::optional<double> curves_into_symmetry(const LineChain &chain, bool last, in
    const auto judge = [&](const Vector2d &tangent, double turn)
    {
       const double off = off_axis(tangent, component);
-      // Where all that leans is round-off there is no curve.
+      // If the angles are round-off there is no curve.
       if (turn > 1e-9 && off <= 0.25 * turn) { least = std::min(off, least.value_or(off)); }
    };
    // The smooth curve that the last element is a chord of.
@@ -84,7 +84,7 @@ void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComp
       if (held(i, 0) == held(i, 1)) { continue; } // free, or clamped
       const int c = held(i, 0) ? 0 : 1;
       LineNode &node = line.nodes[i];
-      const int axis = nearest_axis(node.tangent); // that the line goes along
+      const int axis = nearest_axis(node.tangent); // that is parallel to the line
       const double off = off_axis(node.tangent, axis), degrees = in_degrees * off;
       bool onto_axis = off <= 1e-9; // round-off of the coordinates
       // About an axis a held r is a cylinder, in which nothing has a mirror image.
@@ -103,7 +103,7 @@ void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComp
             onto_axis = onto_axis || curve;
          }
       }
-      // The first chord of a coarse circle leans more than a straight line may.
+      // The first chord of a coarse circle may miss 90 degrees by more than a straight line.
       require(onto_axis || degrees <= LineChain::smooth_turn, "condense: component ",
               component_name(line.formulation, c), " of the contact node at ", node.position,
               " is fixed, and the line meets it at ",
@@ -131,7 +131,7 @@ void meet_supports(ContactLine &line, const CondensedBody &body)
          moved(i, c) = body.moves(found->second, c);
       }
    }
-   // A node at an end of the body's line without symmetry has none here either.
+   // If an end of the body's line has no symmetry, the same node has none here.
    for (const LineChain &chain : body.line.chains)
    {
       for (const int end : {0, 1})

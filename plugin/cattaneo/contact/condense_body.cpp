@@ -16,7 +16,7 @@ constexpr const char *was_eliminated =
    ": was the operator eliminated? Pass it as assembled (SpMat() after Finalize), or fix them "
    "in the body too";
 
-/// Of a body that was gathered: the first rank's solver, what it finds on all.
+/// Solver of a body that was gathered on the first rank. Its results are sent to all ranks.
 class GatheredSolver : public BodySolver
 {
 public:
@@ -45,7 +45,7 @@ public:
    }
 };
 
-/// What the first rank found, on all.
+/// Sends the results of the first rank to all.
 void share(const Ranks &ranks, Condensation &found)
 {
    Eigen::MatrixXd counts(3, 1);
@@ -153,7 +153,7 @@ private:
    double most_ = 0;
 };
 
-/// InputError, on all ranks, for a load of displacements that nothing in the body feels.
+/// InputError, on all ranks, for a load of displacements that causes no forces in the body.
 void require_felt(const ElasticBody &body, const BodyLoad &load)
 {
    const Ranks &ranks = body.ranks();
@@ -230,7 +230,7 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
 {
    ContactDofs contact = contact_dofs(line, body.formulation(), body.dofs());
    const mfem::Array<int> essential = body.essential_dofs();
-   // On all ranks alike, the owner of a dof knows.
+   // The owner of a dof tells all ranks.
    const auto known_by_owner = [&](auto said_of)
    {
       std::vector<double> here;

@@ -127,7 +127,7 @@ FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &li
       ranks.sum(sizes);
       return motions * unresisted_combinations(energy, sizes(0, 0));
    };
-   // An operator of one's own may stand on elastic foundations.
+   // A user's operator may contain elastic foundations.
    const bool grounded = !body.has_material();
    const Eigen::MatrixXd still = left_by(held + contact);
    require((grounded ? unresisted_of(still) : still).cols() == 0,

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 // Relative residuals, in the preconditioner's norm, whose square is an energy. The first is for
-// fields that enter energies, the second for fields whose forces are read off.
+// fields that are used in energies, the second for fields whose forces are used directly.
 static constexpr double coarse = 1e-8, fine = 1e-13;
 
 DistributedSolver::DistributedSolver(const ElasticBody &body, const std::vector<int> &contact,

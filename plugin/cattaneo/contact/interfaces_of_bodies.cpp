@@ -34,7 +34,7 @@ Reduction reduce(const std::vector<NamedBody> &bodies,
               "' is in no interface, so nothing touches it: name an interface for it, or leave "
               "the body out");
       const ContactLine line = joined(lines[b]);
-      // The last with a factor that this one's could be.
+      // The last body whose factor this one may share.
       const CondensedBody *alike = nullptr;
       for (const CondensedBody &before : condensed)
       {

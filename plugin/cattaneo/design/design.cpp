@@ -113,8 +113,8 @@ void require_derivatives(const DesignProblem &problem, const VectorXd &start)
    }
 }
 
-/** Goes from a point where all bounds and limits hold toward another one, as far as they let.
-    Where a limit stops it, it goes on along that limit. */
+/** Goes from a point that meets all bounds and limits toward another one, as far as they allow.
+    At a limit it continues along that limit. */
 VectorXd toward(const DesignProblem &problem, const VectorXd &start, const VectorXd &end)
 {
    const Index variables = start.size(), count = variables + problem.limits.rows();
@@ -144,7 +144,7 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
          way -= kept.completeOrthogonalDecomposition().solve(kept * way).eval();
       }
       way = way.cwiseProduct(unit);
-      // Go as far as the next limit, which then holds too.
+      // Go to the next limit, which is active from then on.
       stop = -1;
       double share = 1;
       for (Index r = 0; r < count; ++r)
@@ -224,9 +224,11 @@ private:
    const Index variables_;
    const MatrixXd limits_; // a column a variable, also where there is none
    std::optional<Trial> trial_, best_;
-   int iteration_ = 0, bettered_ = 0; // now, and when a trial was better than all before
-   double unit_ = 1;                  // of the objective
-   VectorXd scale_, row_unit_;        // of each variable, and of each limit
+   int iteration_ = 0,
+       bettered_ =
+          0; // number of the present trial, and of the last one that was better than all before
+   double unit_ = 1;           // of the objective
+   VectorXd scale_, row_unit_; // of each variable, and of each limit
    DesignReport report_;
 };
 
@@ -312,7 +314,7 @@ void Design::differentiate(Trial &trial)
          trial.message = "case '" + given_.cases[c].name + "': " + message;
       };
       // Forward derivatives cost a pass for each variable, backward ones a pass for each
-      // response. Take what needs fewer passes.
+      // response. Use the way with fewer passes.
       for (Index j = 0; count >= variables_ && j < variables_ && trial.known; ++j)
       {
          const TraceChange change = sensitivity.along(changes[j], march_.monitor);
@@ -554,8 +556,8 @@ void Design::take(const SmoothSolution &solution)
    const bool solved = solution.outcome == ProgrammeOutcome::solved && !stopped();
    const VectorXd last = solved ? x_of(solution.y) : best_->x;
    const Trial &trial = at(last);
-   // The last point may break a limit by less than the tolerance. It is taken if it is as good
-   // as the best point that breaks none.
+   // The last point may violate a limit by less than the tolerance. It is taken if it is as
+   // good as the best point that violates none.
    const bool kept =
       trial.known && objective(trial) <= objective(*best_) + settings_.tolerance * unit_;
    report_.x = kept ? last : best_->x;

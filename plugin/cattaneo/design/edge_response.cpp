@@ -21,7 +21,7 @@ const ContactState &state_of(const MarchTrace &trace, std::size_t k)
    return trace.states[k].state;
 }
 
-/// Tractions near an edge, and the nodes that they are of.
+/// Tractions near an edge, and their nodes.
 struct Near
 {
    Near(const ReducedProblem &problem, const MarchTrace &trace, std::size_t k,

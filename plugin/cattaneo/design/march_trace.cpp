@@ -88,7 +88,8 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
    const auto watch =
       [&](const ContactState &now, const IncrementRecord &record, const VectorXd &depth)
    {
-      // Time that goes back tells that the next cycle has begun. Times of the trace go on.
+      // If the time decreases, the next cycle has begun. Times of the trace continue to
+      // increase.
       if (piece > 0 && now.time <= once.piece(piece).start)
       {
          piece = history.cycle_start;
@@ -130,8 +131,8 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
    {
       const ContactState &now = trace.states[k].state,
                          &before = trace.states[k > 0 ? k - 1 : 0].state;
-      // What counts as no force, relative to the largest force so far. At the start, where
-      // there is no force yet, that of the first increment is the scale.
+      // Forces below this count as zero, relative to the largest force so far. At the start,
+      // where there is no force yet, that of the first increment is the scale.
       const double tiny =
          tolerance *
          trace.states[std::min(std::max<std::size_t>(k, 1), trace.last())].state.peak_force;

@@ -96,8 +96,8 @@ struct Variables
    MatrixXd displacements, forces, multipliers;
 };
 
-/// Is asked with each variable that a number depends on, and the derivative by it. Changes are
-/// summed going forward, derivatives are added to going back.
+/// Called with each variable that a number depends on, and the derivative by it. The forward
+/// way sums changes of the variables, the backward way adds to their derivatives.
 using Visitor = std::function<void(double &variable, double derivative)>;
 
 } // namespace
@@ -123,8 +123,8 @@ struct Sensitivity::System
       return held[i] || state(k).status[i] == NodeState::stick;
    }
 
-   /// What comes to zero where a node changes its state: a gap, a pressure or what is left of
-   /// friction. Derivatives by {v; w}, {q; p}, gap and friction.
+   /// The quantity that becomes zero where a node changes its state: a gap, a pressure or the
+   /// reserve of friction. Derivatives by {v; w}, {q; p}, gap and friction.
    struct Boundary
    {
       VectorXd displacements, forces;
@@ -156,8 +156,7 @@ struct Sensitivity::System
    void respond(std::size_t k, const VectorXd &db, const VectorXd &beside, VectorXd &du,
                 VectorXd &dF);
 
-   // Backward.
-   /// Derivatives by what state k depends on.
+   // Backward. Derivatives by the quantities that state k depends on.
    struct Adjoint
    {
       VectorXd equations; ///< by what is added to the equation of each row
@@ -165,8 +164,9 @@ struct Sensitivity::System
       VectorXd imposed;   ///< by given displacements, zero in rows with an equation
    };
    Adjoint go_back(std::size_t k, const VectorXd &displacements, const VectorXd &forces);
-   /// How a boundary comes nearer along the loads of the piece, by its Adjoint. Zero, to
-   /// round-off: it does not decide how far the path goes, the event is at the load before.
+   /// Rate at which a boundary comes nearer along the loads of the piece, by its Adjoint. If it
+   /// is zero to round-off, the boundary does not decide how far the path goes, and the event
+   /// is at the load before.
    double approach(std::size_t k, const Adjoint &of) const;
    /// Is the share of state k of its piece that of the state before?
    bool goes_with_the_last(std::size_t k) const
@@ -527,7 +527,7 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
          result.message = s.message;
          return result;
       }
-      // 2. Where the gap took in wear before this increment, so does its change.
+      // 2. If wear was added to the gap before this increment, the change of wear is added too.
       if (s.wears() && s.updates_gap_after(k - 1))
       {
          gap += result.worn.middleCols(in_gap + 1, k - 1 - in_gap).rowwise().sum();
@@ -618,8 +618,8 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
    };
    require(response.trace == 0 || s.trace.number == 0 || response.trace == s.trace.number,
            "sensitivity: the response belongs to another trace, must belong to this one");
-   // The response is a function of states. Write its derivatives as ones by displacements,
-   // forces and multipliers of each state.
+   // The response is a function of states. Express its derivatives by displacements, forces and
+   // multipliers of each state.
    for (const auto &[k, weight] : response.weights)
    {
       const auto size = [&](const VectorXd &x, Index expected)

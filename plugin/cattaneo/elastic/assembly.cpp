@@ -280,7 +280,7 @@ std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &sp
    require(entries <= static_cast<std::size_t>(most), "elastic body: the stiffness of ", nodes,
            " nodes has ", entries, " entries, must have at most ", most,
            ": use fewer elements, or distribute the mesh over several ranks");
-   // The matrix takes these arrays over and frees them.
+   // The matrix becomes the owner of these arrays and frees them.
    int *I = new int[size + 1], *J = new int[entries];
    double *data = new double[entries];
    std::fill(data, data + entries, 0.0);

@@ -24,8 +24,8 @@ void check_point(const ElasticBody &body, const std::string &where, double x, do
            " lies outside of the body, which extends from ", box.min(), " to ", box.max());
 }
 
-/// Those of the named components that a body of this formulation has. About an axis r and z
-/// belong to the axisymmetric body and t to the torsion body, so the result may be empty.
+/// The named components that a body of this formulation has. About an axis r and z belong to
+/// the axisymmetric body and t to the torsion body, so the result may be empty.
 std::vector<int> components(const std::string &where, const std::string &text,
                             Formulation formulation)
 {
@@ -75,7 +75,7 @@ std::vector<int> attributes_of(const std::string &word, const BodyTerms &terms,
       if (!its.empty()) { names.push_back(name); }
    }
    const bool is_number = terms.numbered && *end == 0 && number > 0 && number < 1000000000;
-   // A name that there is not; an error in what is no name says the form.
+   // The text is a name that does not exist; for anything else the message shows the form.
    const bool is_name = !word.empty() && word.find_first_of("[]<>:") == std::string::npos;
    require(is_number || !is_name || names.empty(), error.substr(0, error.find("', must be")),
            "': there is no part of the boundary '", word, "', must be one of: ", listed(names),

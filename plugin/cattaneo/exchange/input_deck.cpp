@@ -31,9 +31,9 @@ struct Keyword
    }
 };
 
-/// Corners of an element by its type in capitals: of CPE4, CAX8R, CPS3, of M3D9, which is what
-/// Gmsh calls its quadrilaterals of 9 nodes, or of a truss T3D2, which is what programs write
-/// that name lines; 0 of another.
+/// Number of corners of an element by its type in capitals: CPE4, CAX8R, CPS3, …, M3D9 (Gmsh's
+/// name for quadrilaterals of 9 nodes), or T3D2, a truss, by which some programs name lines. 0
+/// for other types.
 std::size_t corners_of(const std::string &type)
 {
    const std::string family = type.substr(0, 3);
@@ -52,7 +52,7 @@ struct Face
    int side = -1;
 };
 
-/// A part, an instance, or what a deck without parts has.
+/// A part, an instance, or the contents of a deck without parts.
 struct Block
 {
    std::string name; ///< of an instance or a part, else empty
@@ -92,7 +92,7 @@ class DeckReader
 public:
    explicit DeckReader(DeckUse use) : use_(use) {}
    void read(const std::string &file, int depth);
-   /// What can be said of all of it.
+   /// Statements for the whole deck.
    InputDeck finish(const std::string &file, const DeckPart &part);
 
 private:
@@ -109,9 +109,9 @@ private:
    void surface(const LineReader &in, const std::vector<std::string_view> &fields);
    void load(const LineReader &in, const std::vector<std::string_view> &fields);
    void support(const LineReader &in, const std::vector<std::string_view> &fields);
-   /// Where nodes and elements go that a card names by numbers alone.
+   /// The place for nodes and elements that a card gives by numbers alone.
    Block &home();
-   /// Those that a name in a card may speak of.
+   /// The places in which a name in a card is looked for.
    std::vector<Block *> blocks_of(const LineReader &in, std::string_view name);
    template <class Found>
    struct In
@@ -245,7 +245,7 @@ void DeckReader::require_known(const LineReader &in) const
                                                    "EMBEDDED ELEMENT",
                                                    "TIE",
                                                    "CYCLIC SYMMETRY MODEL"};
-   // A mesh is geometry alone: what the card does the case can say.
+   // A mesh is geometry only. The message names what in the case has the effect of the card.
    in.require(
       use_ == DeckUse::stiffness || couplings.count(name) == 0, "*", name,
       name == "TIE"
@@ -391,13 +391,13 @@ void DeckReader::data(LineReader &in)
                  ", must be 1, as stiffness and forces are per thickness",
                  use_ == DeckUse::mesh ? ": key 'thickness' of the case says it" : "");
    }
-   // Those of a mesh are in the case.
+   // Supports and loads of a mesh are in the case.
    else if (name == "CLOAD" && use_ == DeckUse::stiffness) { load(in, fields); }
    else if (name == "BOUNDARY" && use_ == DeckUse::stiffness) { support(in, fields); }
 }
 
-/// First line: how far it is moved. Second: an axis by two points, and an angle in degrees by
-/// which it is turned then.
+/// First line: the translation. Second line: an axis by two points, and the angle in degrees of
+/// a rotation that follows.
 void DeckReader::place_instance(const LineReader &in,
                                 const std::vector<std::string_view> &fields)
 {
@@ -444,8 +444,8 @@ Block &DeckReader::home()
    {
       if (block->name == instance) { return *block; }
    }
-   // Beside a matrix there is one instance, and all numbers are of it; the assembly of a mesh
-   // may have points of its own.
+   // Beside a matrix there is one instance, and all numbers belong to it. The assembly of a
+   // mesh may have points of its own.
    if (use_ == DeckUse::stiffness && instances_.size() == 1) { return *instances_[0]; }
    const bool only_part = parts_.size() == 1 && instances_.empty() && !whole_.has_nodes();
    return only_part ? parts_.begin()->second : whole_;
@@ -477,7 +477,7 @@ void DeckReader::node(const LineReader &in, const std::vector<std::string_view> 
 {
    in.require(fields.size() >= 3, "*NODE has ", fields.size(),
               " fields, must have a number and two coordinates");
-   // More are a direction, of three numbers, or follow an empty z.
+   // More fields are a direction of three numbers, or follow an empty z.
    in.require(fields.size() <= 4 || fields.size() == 7 || fields[3].empty(), "*NODE has ",
               fields.size(),
               " fields, must have a number, x, y and z, with points as decimal marks");
@@ -890,7 +890,8 @@ InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
          if (found != outer.end()) { edges.push_back(*found->second); }
       }
    }
-   // Sets of an instance have their own names again, but where the assembly has one of them.
+   // Sets of an instance get their own names back, unless the assembly has a set with the same
+   // name.
    const auto tidy = [&](auto &sets)
    {
       const std::string before = block.name + ".";

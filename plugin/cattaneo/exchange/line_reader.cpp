@@ -69,7 +69,7 @@ bool LineReader::next()
    while (std::getline(in_, line_))
    {
       ++number_;
-      // What Windows puts before UTF-8.
+      // The byte order mark that Windows puts before UTF-8.
       if (number_ == 1 && line_.rfind("\xEF\xBB\xBF", 0) == 0) { line_.erase(0, 3); }
       const bool ascii =
          std::all_of(line_.begin(), line_.end(), [](char c) { return (c & 0x80) == 0; });

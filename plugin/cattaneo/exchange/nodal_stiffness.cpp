@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 namespace
 {
 
-/// What directions there are, in messages.
+/// The possible directions, for messages.
 const char *directions_of(Formulation formulation)
 {
    return formulation == Formulation::space ? ", must be 1, 2 or 3" : ", must be 1 or 2";
@@ -202,7 +202,7 @@ void NodalStiffness::add_displacement(const std::string &load, const Nodes &node
                                       int direction, double value)
 {
    const std::vector<int> at = rows_of(nodes, direction, false);
-   // A support that was eliminated has lost the forces which its motion takes.
+   // In an eliminated support the forces that its motion would need are lost.
    for (std::size_t k = 0; supports_left_out && k < at.size(); ++k)
    {
       bool coupled = false;
@@ -272,11 +272,11 @@ void NodalStiffness::require_free(const DofPlaces &at) const
    }
    for (int motion = 0; motion < count; ++motion)
    {
-      // About an axis a body is free along it alone.
+      // About an axis the only rigid motion is along it.
       if (about_axis(formulation) && motion != 1) { continue; }
       const Eigen::VectorXd u = motions.col(motion);
       const double energy = u.dot(K * u), size = u.cwiseAbs().dot(K.cwiseAbs() * u.cwiseAbs());
-      std::ostringstream share; // of no more digits than say something
+      std::ostringstream share; // with no more digits than are meaningful
       share.precision(2);
       share << std::abs(energy) / size;
       require(
@@ -293,7 +293,7 @@ AssembledBody NodalStiffness::body() const
    validate();
    AssembledBody body;
    const auto size = static_cast<Index>(dofs.size());
-   body.K = SharedMatrix(K.pruned()); // what is stored connects
+   body.K = SharedMatrix(K.pruned()); // stored entries connect nodes
    body.loads = loads;
    body.grounded = supports_left_out;
    body.places = {Eigen::VectorXd(size), Eigen::VectorXd(size), {}, formulation};
@@ -322,7 +322,7 @@ AssembledBody NodalStiffness::body() const
    body.fixed.assign(held.begin(), held.end());
    if (fixed.empty() && !supports_left_out)
    {
-      body.validate(); // what is not symmetric resists motions too
+      body.validate(); // an asymmetric part would resist motions too
       require_free(body.places);
    }
    return body;
@@ -438,7 +438,8 @@ ContactSurface NodalStiffness::contact_surface(const std::vector<Nodes> &on) con
       }
       return node;
    };
-   // What K couples with all nodes of a face and that lies off it is on the body's side.
+   // Nodes that K couples with all nodes of a face, and that lie off the face, are on the
+   // body's side.
    const auto inside = [&](std::size_t f)
    {
       const Nodes &face = on[f];
@@ -519,7 +520,7 @@ ContactLine NodalStiffness::contact_line(const Nodes &nodes, int order) const
 std::vector<NodalStiffness> NodalStiffness::parts() const
 {
    validate();
-   // Rows of supports that were eliminated are as good as none.
+   // Rows of eliminated supports count as missing.
    std::set<int> gone;
    if (supports_left_out)
    {
@@ -536,7 +537,7 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
          return made.parts();
       }
    }
-   // Rows of one node are of one body, whether K connects them or not.
+   // Rows of one node belong to one body, whether K connects them or not.
    std::vector<Eigen::Triplet<double>> links;
    int last = -1, last_node = 0;
    for (const auto &[dof, row] : rows())
@@ -589,8 +590,8 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
          order.push_back(group);
       }
    }
-   // Which of them are supported: unless supports are nowhere to be seen, or are on nodes that
-   // may be anybody's.
+   // Which of the bodies have supports. Empty if no supports are known, or if they are on nodes
+   // that may belong to any body.
    std::set<std::size_t> supported;
    for (int node : on_springs)
    {

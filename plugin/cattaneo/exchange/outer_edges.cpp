@@ -39,8 +39,9 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
       }
       if (count > 4)
       {
-         // Each node in the middle of a side is nearer to it than in any other order of them:
-         // the sum over all, since one alone may be far off a side that is bent much.
+         // Is each middle node nearest to its own side? The sum of the distances over all sides
+         // must be the smallest of all orders of these nodes, because a single node may be far
+         // from a strongly curved side.
          std::vector<std::size_t> sides(corners), best;
          std::iota(sides.begin(), sides.end(), 0);
          double least = std::numeric_limits<double>::infinity();

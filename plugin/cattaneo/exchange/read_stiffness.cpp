@@ -24,7 +24,7 @@ std::string dof_name(const NodeDof &dof)
    return "node " + std::to_string(dof.node) + " direction " + std::to_string(dof.direction);
 }
 
-/// Rotations and what is off the plane are no business of a plane body.
+/// A plane body has no rotations and no displacements off the plane.
 void require_plane(const LineReader &in, const NodeDof &dof)
 {
    in.require(dof.direction == 1 || dof.direction == 2, "direction ", dof.direction,
@@ -70,8 +70,8 @@ void read_calculix(const std::string &file, NodalStiffness &rows)
 
 // --- ABAQUS --------------------------------------------------------------------------------
 
-/// Eliminates internal rows, K_bb - K_bi K_ii⁻¹ K_ib, and leaves of each support its diagonal,
-/// 1: the true one is lost, since 1e36 was added to it.
+/// Eliminates internal rows, K_bb - K_bi K_ii⁻¹ K_ib. Of a support only a diagonal of 1 is
+/// left, because the true diagonal is lost: 1e36 was added to it.
 void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::string &file)
 {
    std::vector<int> number(rows.dofs.size(), -1);
@@ -419,7 +419,7 @@ public:
               ", must be ", columns, " columns of whole numbers");
       return all.cast<int>();
    }
-   /// What the names of arrays that begin with a word go on with.
+   /// The rest of the names of arrays that begin with a word.
    std::vector<std::string> named(const std::string &word) const
    {
       std::vector<std::string> names;
@@ -517,8 +517,9 @@ private:
    const std::map<NodeDof, int> rows_;
 };
 
-/// What the cards of a deck say of the rows of its matrix. A force may be left out only on what
-/// the deck itself holds: rows are also missing because they were eliminated, or by mistake.
+/// Applies the cards of a deck to the rows of its matrix. A force without a row is ignored only
+/// if the deck itself holds that dof. Otherwise the row may be missing because it was
+/// eliminated, or by mistake.
 void add_cards(const std::vector<Card> &cards, const std::string &file, NodalStiffness &result)
 {
    Entries entries(result);
@@ -698,7 +699,7 @@ void read_dofs(const std::string &file, NodalStiffness &result)
       });
 }
 
-/// What write_npz() says of the rows of its matrix.
+/// The description of the rows that write_npz() adds to its matrix.
 void read_facts(const NumpyArrays &array, const std::string &file, NodalStiffness &result)
 {
    const Eigen::Index size = result.K.rows();

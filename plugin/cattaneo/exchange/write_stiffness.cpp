@@ -66,7 +66,7 @@ NodalStiffness::Sets written_sets(const NodalStiffness &stiffness)
    return written;
 }
 
-/// With nodes counted from 1 where they are counted from 0, as programs have them.
+/// Nodes that are counted from 0 are counted from 1, as other programs do.
 NodalStiffness numbered_from_one(NodalStiffness stiffness)
 {
    int least = 1;
@@ -84,7 +84,7 @@ NodalStiffness numbered_from_one(NodalStiffness stiffness)
    return stiffness;
 }
 
-/// By that name NumPy and read_stiffness() know what it is.
+/// NumPy and read_stiffness() recognize the array by this name.
 void require_npz(const std::string &file)
 {
    require(std::filesystem::path(file).extension() == ".npz", "write_npz: file '", file,
@@ -313,7 +313,7 @@ void write_abaqus(const std::string &file, const NodalStiffness &given)
 namespace
 {
 
-/// In the 16 columns of a wide field, with as many digits as they hold.
+/// A number in the 16 columns of a wide field, with as many digits as fit.
 std::string wide(double value, char exponent)
 {
    char text[32];

@@ -81,7 +81,7 @@ double FlatRoundedContact::pressure(double x) const
    x = std::abs(x);
    if (x >= a) { return 0.0; }
    const double A = std::sqrt((a - x) * (a + x)), B = std::sqrt((a - b) * (a + b));
-   // The two logarithms of the sheet share ln|b²-x²|, which cancels where it is infinite.
+   // Both logarithms of the formula contain ln|b²-x²|, which cancels where it is infinite.
    const double shared = x == b ? 0.0 : 0.5 * (b - x) * std::log(std::abs((b - x) * (b + x)));
    const double first = b > 0 ? -b * std::log(A + B) : 0.0;
    const double second = x > 0 ? x * std::log((b * A + x * B) / a) : 0.0;

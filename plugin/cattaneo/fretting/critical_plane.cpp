@@ -50,7 +50,8 @@ private:
    const PlaneWeights &weights_;
 };
 
-/// Where a function with one summit between two places has it, by golden sections.
+/// Place of the maximum of a function with a single maximum between two places, by golden
+/// sections.
 double summit(const OnPlanes &value, double low, double high)
 {
    const double share = 0.5 * (std::sqrt(5.0) - 1);

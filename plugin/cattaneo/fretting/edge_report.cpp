@@ -107,7 +107,7 @@ try
       contact_edges(states.problem, states.pressed, states.peak, states.cracked);
    const std::vector<ContactEdge> before =
       contact_edges(states.problem, states.pressed, states.pressed, states.cracked);
-   // A cycle between nothing and the peak has the pressed state as its other end.
+   // In a cycle between zero and the peak the pressed state is the other end.
    const std::vector<ContactEdge> opposite =
       !states.opposite ? std::vector<ContactEdge>()
       : states.opposite == &states.pressed

@@ -14,7 +14,7 @@ namespace
 
 using nlohmann::json;
 
-/// One record with the words to say where it is.
+/// One record, with its place in the file for messages.
 struct Record
 {
    const json &data;
@@ -105,7 +105,7 @@ std::vector<FatigueMaterial> read_materials(const std::string &file)
    }
    catch (const json::exception &)
    {
-      document = nullptr; // which the next sentence refuses
+      document = nullptr; // which the next check refuses
    }
    require(document.is_object() && document.contains("materials") &&
               document["materials"].is_array() && !document["materials"].empty(),

@@ -21,7 +21,8 @@ double surface_von_mises(double f, double constraint, double t)
    const double m = square(1 - 2 * constraint);
    if (t < 0)
    {
-      // One stress only, 2f(√(1-t) - √-t), and the constraint's share of it.
+      // The only nonzero stress in the plane, 2f(√(1-t) - √-t), and the part of it that plane
+      // strain causes.
       return std::sqrt(4 * (1 - constraint + square(constraint))) * f /
              (std::sqrt(1 - t) + std::sqrt(-t));
    }
