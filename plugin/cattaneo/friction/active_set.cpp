@@ -42,7 +42,7 @@ std::vector<double> states_and_pieces(const Increment &at)
 
 Index ask_for_states(Increment &at)
 {
-   // Violations that change nothing.
+   // Violations too small to change a state.
    const VectorXd tiny =
       (0.5 * at.round_off()).cwiseMax(0.1 * at.system.settings.tolerance * at.reference);
    Index changed = 0;
@@ -62,8 +62,8 @@ Index ask_for_states(Increment &at)
 bool newton(Increment &at)
 {
    if (at.system.disc()) { return newton_in_the_disc(at); }
-   // Each step may cost a factor, of order n³. If only a few of many nodes go on changing,
-   // Lemke's method, which changes them one by one at n² each, is cheaper.
+   // Each step may cost a factor, of order n³. If only a few of many nodes keep changing,
+   // Lemke's method is cheaper. It changes them one by one, at n² each.
    return newton_on_states([&] { return states_and_pieces(at); }, at.system.settings.max_newton,
                            at.system.n / 50, [&] { return solve_for_states(at); },
                            [&] { return ask_for_states(at); }) &&

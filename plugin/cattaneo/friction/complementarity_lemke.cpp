@@ -85,7 +85,7 @@ private:
    VectorXd h_;
    VectorXd x_, F_, away_; // b + θ away, θ = 1 at the start
    VectorXd dx_, dF_;      // by dθ
-   bool possible_ = true;  // the equations are not singular with the pieces of the start
+   bool possible_ = true;  // are the equations regular with the pieces at the start?
 };
 
 Lemke::Lemke(StateEquations &equations, const ComplementarityProblem &problem,
@@ -101,7 +101,7 @@ Lemke::Lemke(StateEquations &equations, const ComplementarityProblem &problem,
    { return slack * largest * (0.5 + std::ldexp(double(random() >> 11), -53)); };
    for (Index i = 0; i < n_; ++i) { set_out_from(i, some); }
    away_ = F_ - problem.b - equations.stiffness() * x_;
-   // The equations know the slopes of the pieces now.
+   // From here on the equations have the slopes of the pieces.
    const std::vector<NodeState> states = equations.states();
    possible_ = bounds_.empty() || equations.set(states);
 }
@@ -159,7 +159,7 @@ void Lemke::set_out_from(Index i, const std::function<double()> &some)
 /// The piece of a bound at a pressure; at a bend the one below it.
 void Lemke::set_piece(Index i, double p)
 {
-   // A bend that p is on ends the piece.
+   // If p is at a bend, the piece ends there.
    const double inside = std::nextafter(p, -infinity);
    pieces_[i] = {bounds_[i].straight(p), bounds_[i].bend(inside, -1), bounds_[i].bend(p, 1)};
    equations_.set_bound(i, bounds_[i].of_rates(p));
@@ -342,15 +342,16 @@ bool Lemke::follow(ComplementarityReport &report)
       Kind kind = gap;
       if (!go(direction, theta, node, kind)) { return false; }
       if (node < 0) { break; } // arrived
-      // 2. One node exchanges its state or piece.
+      // 2. One node changes its state or piece.
       ++report.pivots;
       const Kind to = partner(kind, sense_[node]);
       if (!exchange(node, kind) || !find_direction()) { return false; }
-      // 3. The path goes on into the inside of the partner's inequality, or turns back for it.
+      // 3. The path continues such that the partner's inequality becomes strict, if necessary
+      // backwards.
       direction = value(node, to, dx_, dF_, 1, 0) > 0 ? 1 : -1;
    }
-   // 4. The equations of the final states leave no drift; nothing holds nodes in separation
-   // now.
+   // 4. Solve the equations of the final states once more, without accumulated errors. Nodes in
+   // separation now have no artificial friction.
    const std::vector<NodeState> states = equations_.states();
    if (!equations_.set(states)) { return false; }
    const VectorXd constant = intercepts();

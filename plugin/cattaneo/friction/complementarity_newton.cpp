@@ -64,7 +64,7 @@ bool newton_on_states(const std::function<std::vector<double>()> &choices, int m
                       const std::function<Index()> &ask)
 {
    std::set<std::vector<double>> tried;
-   // If a few of many nodes go on changing they would do so up to the last allowed step.
+   // A few of many nodes that keep changing would do so up to the last allowed step.
    constexpr int enough = 8;
    Index fewest = std::numeric_limits<Index>::max();
    int patience = enough;

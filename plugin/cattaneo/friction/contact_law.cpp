@@ -31,7 +31,7 @@ NodeVector solve(const NodeMatrix &A, const NodeVector &b)
                    (A(0, 0) * b[1] - A(1, 0) * b[0]) / det);
 }
 
-/// The bound on a force that goes against this direction.
+/// The bound of a friction force that opposes this direction of slip.
 double bound_against(const ContactNode &node, const NodeVector &way)
 {
    return node.bound.at(node.p, way.size() == 2 ? 0.0 : way[0] > 0 ? 1.0 : -1.0);
@@ -151,7 +151,7 @@ NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, doub
 {
    if (!closed(now))
    {
-      // A node that penetrates sticks first: which way it slips is not known yet.
+      // A node that overlaps sticks first, because the direction of its slip is not known yet.
       return node.kn * node.gap < -tiny ? NodeState::stick : now;
    }
    if (node.p < -tiny) { return NodeState::separation; }
@@ -272,7 +272,7 @@ NodeMove solve_node(const LoneNode &node)
       }
       const SlipEquation equation{node};
       // A straight piece of a bent law may be below zero at this pressure, as it belongs to
-      // other pressures. It then holds nothing, and the node moves on to another piece.
+      // other pressures. Its bound is then zero, and the node goes to another piece.
       const double t = equation(0) > 0 ? 0.0 : find_root(equation, 0, 1);
       move.state = NodeState::slip;
       move.slip = -(1 - t) * equation.y(t);

@@ -114,7 +114,7 @@ void ContactState::require_of(const ReducedProblem &problem) const
                          size = problem.K.cwiseAbs() * u.cwiseAbs() + loads.cwiseAbs();
    Eigen::Index row = 0;
    const double off = (problem.K * u + loads - forces()).cwiseAbs().maxCoeff(&row);
-   // A state without loads still has the round-off of the loads that it has seen.
+   // A state without loads still has the round-off of earlier loads.
    const double allowed = std::max(1e-6 * size.maxCoeff(), 1e-9 * peak_force);
    require(off <= allowed, "contact state: the forces of node ", row % problem.nodes(),
            " differ by ", off,

@@ -19,9 +19,9 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Can forces inside the cones of friction f balance each other? All edges count alike, so the
-/// question is whether zero is in the convex hull of the edges. If no rigid motion feels the
-/// pressure of a node, supports balance it, and then also its shear, whatever the friction.
-/// That is no lock: elasticity decides which forces such a node holds.
+/// question is whether zero is in the convex hull of the edges. If the pressure of a node does
+/// no work on any rigid motion, supports balance it, and also its shear, at any friction. This
+/// does not count as locking, because elasticity decides which forces such a node can carry.
 bool locks(const ReducedProblem &problem, double f)
 {
    const MatrixXd &Z = problem.rigid_motions;
@@ -64,7 +64,7 @@ double locking_friction(const ReducedProblem &problem)
 double uniqueness_bound(const ReducedProblem &problem)
 {
    if (!problem.coupled) { return infinity; }
-   // Nothing resists a rigid motion: C is singular, or the Schur complement of C in K is.
+   // There is a motion without resistance: C is singular, or the Schur complement of C in K is.
    if (problem.rigid_motions.cols() > 0) { return 0; }
    const Index n = problem.nodes(), m = problem.slips();
    const VectorXd s = problem.C().diagonal().cwiseSqrt().cwiseInverse(),

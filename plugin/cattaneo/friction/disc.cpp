@@ -75,8 +75,8 @@ void DiscEquations::gather(const Increment &at)
    of_slip_ = K_(rows, columns);
 }
 
-/// Forces of the closed nodes where all nodes are at u, and the open ones go where they bear
-/// nothing.
+/// Forces of the closed nodes if all nodes are at u, and the open ones then move until they
+/// carry no force.
 DiscEquations::Origin DiscEquations::origin_at(const Increment &at, const VectorXd &u) const
 {
    const VectorXd forces = at.f + at.system.product->times(u);
@@ -108,8 +108,8 @@ DiscEquations::Linearised DiscEquations::linearise(const Increment &at) const
    return to;
 }
 
-/// What the equations of the slipping nodes are off by at an origin: n·q - f p, then
-/// (1 - β) t·q + β k t·x.
+/// Residuals of the equations of the slipping nodes at an origin: n·q - f p, then (1 - β) t·q +
+/// β k t·x.
 VectorXd DiscEquations::imbalance(const Increment &at, const Origin &from) const
 {
    const FrictionSystem &s = at.system;
@@ -123,7 +123,7 @@ VectorXd DiscEquations::imbalance(const Increment &at, const Origin &from) const
       const Vector2d slip = at.along(from.u, i) - at.along(at.start.v, i);
       // B = 0: slip does not change the pressure, which is known.
       const double p = s.problem.coupled ? from.forces[k + 2 * closed_nodes_] : at.F[s.m(i)];
-      // A bound that bends is the line of its piece where the increment stands.
+      // A bound with bends is replaced by the line of its piece at the present pressure.
       const FrictionBound line = s.bound[i].straight(std::max(at.F[s.m(i)], 0.0));
       off[r] = to.n.dot(q) - line.line(p);
       off[count + r] =
@@ -220,12 +220,12 @@ VectorXd DiscEquations::with_factor(const Linearised &to, const VectorXd &r) con
    return x;
 }
 
-/// GMRES with the factor of an earlier step. False if that does not end soon.
+/// GMRES with the factor of an earlier step. False if it does not converge soon.
 bool DiscEquations::iterate(const Linearised &to, const VectorXd &r, VectorXd &x) const
 {
-   // As far as Newton's steps are right themselves: the next one sees what is left.
+   // No more accurate than Newton's step itself, because the next step corrects the rest.
    constexpr double enough = 1e-6;
-   // A step of the iteration reads two matrices, which a factor does a hundred times.
+   // A step of the iteration reads two matrices; a factorisation costs a hundred times as much.
    constexpr int most = 16;
    const double size = r.norm();
    if (size == 0)
@@ -254,7 +254,7 @@ bool DiscEquations::iterate(const Linearised &to, const VectorXd &r, VectorXd &x
       turned.push_back(turn);
       H.col(k).applyOnTheLeft(k, k + 1, turn.adjoint());
       g.applyOnTheLeft(k, k + 1, turn.adjoint());
-      // 3. What they leave is the residual.
+      // 3. The last entry after the rotations is the residual.
       if (std::abs(g[k + 1]) > enough * size) { continue; }
       if (H(k, k) == 0) { return false; }
       const VectorXd y =
@@ -269,7 +269,7 @@ bool DiscEquations::iterate(const Linearised &to, const VectorXd &r, VectorXd &x
 bool DiscEquations::solve_slip(Increment &at, const Linearised &equations, const VectorXd &b,
                                VectorXd &x)
 {
-   // Few equations are factored in no time.
+   // Few equations are factored at once, which is fast.
    constexpr Index few = 64;
    if (x.size() == 0) { return true; }
    if (x.size() > few && !factored_.empty())
@@ -297,11 +297,11 @@ bool DiscEquations::solve(Increment &at)
    FrictionSystem &s = at.system;
    // 1. Without coupling the gaps and pressures are known first.
    if (!s.problem.coupled && !solve_normal(at)) { return false; }
-   // 2. The open nodes go.
+   // 2. The open nodes are eliminated.
    if (!eliminate_open(at)) { return false; }
    gather(at);
-   // 3. Displacements are counted from no slip and closed gaps, where the nodes are for as long
-   // as the same ones are open.
+   // 3. Displacements are counted from a state without slip and with closed gaps. It stays the
+   // same as long as the same nodes are open.
    if (origin_.u.size() == 0)
    {
       VectorXd u = at.u;
@@ -316,7 +316,7 @@ bool DiscEquations::solve(Increment &at)
    const auto count = static_cast<Index>(slipping_.size());
    for (bool again = false;; again = true)
    {
-      // 4. The slip that the equations ask for …
+      // 4. The slip that solves the equations …
       const Origin from = again ? origin_at(at, at.u) : origin_;
       VectorXd x(2 * count);
       for (Index r = 0; r < 2 * count; ++r)
@@ -333,14 +333,14 @@ bool DiscEquations::solve(Increment &at)
          at.u[s.t(i, k)] -= x[r];
          if (!open_.empty()) { lift -= x[r] * X_.col(place_[i] + k * closed_nodes_); }
       }
-      // 5. … and where the open nodes go with it.
+      // 5. … and the displacements of the open nodes that follow.
       if (!open_.empty())
       {
          open_factor_.solve_other_half(lift);
          at.u(open_) -= lift;
       }
-      // 6. Once more from there if that was asked for, and where the round-off of the origin is
-      // a large part of it.
+      // 6. Solve once more from there, if refinement is on, or if the round-off of the origin
+      // is a large part of the result.
       if (again || !(refines_ || cancels(s.K.diagonal(), from.u, at.u))) { break; }
    }
    at.F = at.f + s.product->times(at.u);
@@ -351,8 +351,8 @@ namespace
 {
 
 /// Takes the states in which the natural map has the nodes, and their directions of slip. A
-/// node that closes slips if it has moved along: to stick first is what sends Newton's steps
-/// round in a circle. @return how many nodes changed their state
+/// node that closes starts with slip if it has moved along the surface. If it stuck first,
+/// Newton's steps would repeat themselves. @return how many nodes changed their state
 Index take_natural_states(Increment &at)
 {
    const FrictionSystem &s = at.system;
@@ -400,11 +400,11 @@ bool newton_in_the_disc(Increment &at)
          least = size;
          best = {at.u, at.status};
       }
-      // 2. Their solution is the end if it asks for the same states.
+      // 2. Their solution is the end if its states are the same.
       const bool same = take_natural_states(at) == 0;
       if (same && small && at.ends_here()) { return true; }
-      // 3. Steps that bring the residual down no more are given up after a while. The same
-      // states have the same solution, which can only be made better.
+      // 3. The steps end if the residual has not fallen for some time. The same states have the
+      // same solution, which can only be refined.
       if (size < 0.5 * before)
       {
          before = size;
@@ -414,8 +414,8 @@ bool newton_in_the_disc(Increment &at)
       --patience;
       if (same) { at.system.disc_equations.refine(); }
    }
-   // 4. Where round-off is as large as the tolerance it changes states at every step. The best
-   // place of all is judged by what round-off allows.
+   // 4. If round-off is as large as the tolerance, it changes states at every step. Then the
+   // best displacements of all steps are checked with a tolerance of the size of round-off.
    if (best.status.empty()) { return false; }
    at.move_to(best.u, best.status);
    return at.ends_here();

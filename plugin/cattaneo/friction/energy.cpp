@@ -16,7 +16,7 @@ double work(const LoadPattern &pattern, const ContactState &state)
 namespace
 {
 
-/// One node over an increment. It tells when within the increment the node begins to slip.
+/// One node over an increment, to find when within the increment it begins to slip.
 struct NodeWay
 {
    NodeWay(const ReducedProblem &problem, const ContactState &before, const ContactState &after,
@@ -117,12 +117,13 @@ RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const Contac
       by.q0 = (1 - s) * by_force;
       by.slip -= s * passed.own.cwiseProduct(by_force);
       by.stiffness = -s * passed.slip.cwiseProduct(by_force);
-      const double p = passed.p0 + s * dp, by_bound = -2 * by_root * f * p; // by f p there
+      const double p = passed.p0 + s * dp,
+                   by_bound = -2 * by_root * f * p; // derivative by f p at that pressure
       by.friction = by_bound * p;
       by.p0 += by_bound * f * (1 - s);
       by.p1 += by_bound * f * s;
    }
-   // Nothing is borne in tension.
+   // There is no force in tension.
    if (before.p[node] <= 0) { by.p0 = 0; }
    if (after.p[node] <= 0) { by.p1 = 0; }
    return by;

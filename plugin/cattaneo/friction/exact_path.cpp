@@ -33,7 +33,7 @@ ExactPath::ExactPath(const ReducedProblem &problem)
            problem.components(), " tangential components a node, must have 1");
 }
 
-/// What the present gaps and forces leave each node to choose.
+/// The states from which each node may choose, by its present gap and forces.
 void ExactPath::find_choices(const ContactState &state)
 {
    const Index n = problem_.nodes();
@@ -140,7 +140,7 @@ bool ExactPath::place_pivot(std::vector<NodeState> states)
    double farthest = 0;
    for (Index i = 0; i < n; ++i)
    {
-      // What slips about would have its say.
+      // Nodes that slip around the pivot would add their friction.
       if (closed(states[i]) && std::abs(pivot_.motion[i]) > 1e-9) { return false; }
       if (closed(states[i]) || std::abs(pivot_.motion[n + i]) <= farthest) { continue; }
       farthest = std::abs(pivot_.motion[n + i]);
@@ -267,7 +267,8 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
    }
    known_.to.resize(0);
    last_.ended = false;
-   // 3. Each node at a bend goes to one side of it. A few rounds find the side if there is one.
+   // 3. The pressure of each node at a bend goes to one side of it. A few rounds find the
+   // sides, if they exist.
    const std::size_t most_turns = 2 * bounds_.bends.size() + 1;
    for (std::size_t turns = 0; turns < most_turns; ++turns)
    {
@@ -287,7 +288,7 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
          return false;
       }
       if (turn_bends()) { continue; }
-      // 6. A node that was said to touch is let go.
+      // 6. The node that was set to touch is open again.
       if (pivot_.node < 0) { return true; }
       last_.found_by = "event path, pivot";
       return release_pivot();
@@ -360,7 +361,7 @@ double ExactPath::share_to_event(double stop)
          share = to;
          last_.event = i;
       });
-   // A closed node may come to the next bend of its bound.
+   // The pressure of a closed node may reach the next bend of its bound.
    const Index n = problem_.nodes();
    for (Index i = 0; i < n; ++i)
    {
@@ -418,7 +419,7 @@ bool ExactPath::starts_from(const ContactState &state) const
    const Index n = problem_.nodes();
    const VectorXd u = state.displacements();
    const VectorXd f = problem_.clamped_forces(state.multipliers);
-   // Ten times the leave that an increment of the solver has.
+   // Ten times the tolerance of an increment of the solver.
    const double allowed = 1e-11 * std::max(state.peak_force, f.cwiseAbs().maxCoeff());
    const VectorXd round_off = 4 * equations_.round_off(f, u);
    bool starts =
@@ -444,7 +445,8 @@ double ExactPath::set_out(const ContactState &state, const PathWay &way)
    const VectorXd f_end = problem_.clamped_forces(way.multipliers);
    u_ = state.displacements();
    F_ = state.forces();
-   // The present forces count: larger forces later tell nothing about present gaps.
+   // Relative to the present forces, because larger forces later give no information about
+   // present gaps.
    const double present =
       std::max({state.peak_force, f.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff()});
    const VectorXd round_off = equations_.round_off(f, u_);
@@ -485,7 +487,7 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
    }
    u_ += correction;
    F_ = corrected - constant;
-   // The state before had this error already, which is no slip.
+   // The state before had this error already. It does not count as slip.
    last_.slip_error = correction.head(n).cwiseAbs();
    // If little resists a rotation, the correction can carry a node past its event. Then go back
    // to the event.

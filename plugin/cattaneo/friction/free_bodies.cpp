@@ -1,5 +1,5 @@
-// Bodies that contact alone keeps where they are: do the loads carry them away, where do weak
-// springs let them come to rest, and how little do they move where nothing decides?
+// Bodies that only contact keeps in place. Three questions: do the loads drive them away, where
+// do they rest on weak springs, and which is the least motion if their place is not determined?
 
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
@@ -23,11 +23,12 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Loads along the rigid motions as forces inside the friction cones, as nearly as these can.
+/// Forces inside the friction cones that balance the loads along the rigid motions as nearly as
+/// possible.
 struct ConeFit
 {
    NonnegativeFit fit;
-   bool proven = false; ///< the residual is that of the cones, not of too few edges
+   bool proven = false; ///< the residual belongs to the cones, not to too few edges
 };
 
 /// Do the fit's residual r and all edges prove that there is no equilibrium (Farkas)? With
@@ -84,9 +85,9 @@ ConeFit fit_to_cones(const MatrixXd &Z, const std::vector<FrictionBound> &bound,
    return found;
 }
 
-/// Does a mechanism slide or spin, or only lift off? A body that slides bears on nodes along
-/// which it moves; one that lifts off bears on none, or on those about which it turns.
-/// `forces`: along the edges of the cones.
+/// Does a mechanism slide or spin, or only lift off? A body that slides has forces at nodes
+/// along which it moves. A body that lifts off has forces at no node, or only at nodes about
+/// which it turns. `forces`: along the edges of the cones.
 void describe(Mechanism &mechanism, const ReducedProblem &problem, const VectorXd &forces)
 {
    const Index n = problem.nodes(), m = problem.slips(), c = problem.components(),
@@ -154,8 +155,8 @@ Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<Fricti
    Mechanism mechanism;
    const MatrixXd &motions = problem.rigid_motions;
    if (motions.cols() == 0) { return mechanism; }
-   // 1. Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. A lever of round-off would
-   // balance any load, with forces of any size.
+   // 1. Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. A lever arm that is only
+   // round-off could balance any load with very large forces.
    const double lever = 1e-13 * motions.cwiseAbs().maxCoeff();
    const MatrixXd Z = (motions.array().abs() < lever).select(0.0, motions);
    const VectorXd g = Z.transpose() * clamped_forces;
@@ -167,15 +168,15 @@ Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<Fricti
    const auto [fit, proven] = fit_to_cones(Z, bound, g, enough);
    const VectorXd &r = fit.residual;
    if (!proven || r.norm() <= enough * g.norm()) { return mechanism; }
-   // 3. The loads that are left drive the bodies along this motion. What the motions lack to be
-   // rigid does work too.
+   // 3. The loads that are left drive the bodies along this motion. If the motions are not
+   // exactly rigid, the stiffness does work on them too.
    const MatrixXd &K = problem.K;
    const double lack =
       symmetric_times(K, Z).cwiseAbs().maxCoeff() / K.diagonal().cwiseAbs().maxCoeff();
    if (!disc && r.norm() <= 100 * lack * g.norm()) { return mechanism; }
    mechanism.motion = Z * r;
-   // 4. Clamped forces hold the bodies, which go against this motion. Forces that need no
-   // pressure work against them, the loads do r·g = r² along it.
+   // 4. Clamped forces hold the bodies, so the bodies move against this motion. Forces that
+   // need no pressure resist it; the work of the loads along it is r·g = r².
    const double resisted = work_without_pressure(problem, bound, mechanism.motion);
    const double largest = mechanism.motion.cwiseAbs().maxCoeff();
    if (r.squaredNorm() <= (1 + 1e-9) * resisted || largest <= negligible) { return mechanism; }
@@ -237,7 +238,7 @@ ReducedProblem with_springs(const ReducedProblem &problem, double spring,
    return sprung;
 }
 
-/// Multipliers with that of the springs.
+/// The multipliers, with one for the springs appended.
 VectorXd with_one(const VectorXd &multipliers)
 {
    VectorXd all(multipliers.size() + 1);
@@ -289,7 +290,7 @@ OnSprings put_on_springs(Increment &at)
    const VectorXd loads = with_one(at.multipliers);
    ContactState begin = at.start;
    begin.multipliers = with_one(begin.multipliers);
-   int alike = 0; // springs in a row that bore the same as the one before
+   int alike = 0; // number of successive springs with the same force as the one before
    for (double weakness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8})
    {
       const double spring = weakness * (tell ? soft : mean);
@@ -315,19 +316,20 @@ OnSprings put_on_springs(Increment &at)
       found.state = next;
       found.state->multipliers = at.multipliers;
       found.state->peak_force = at.reference;
-      // 3. Springs that bear nothing hold an answer.
+      // 3. If the springs carry no force, the state is an answer.
       const double size = bears.cwiseAbs().maxCoeff();
       found.bear_nothing = size <= s.settings.tolerance * at.reference;
       if (found.bear_nothing) { break; }
-      // 4. Those that bear the same again hold what moves on.
+      // 4. If the force of the springs does not change any more, the bodies would move without
+      // end.
       const VectorXd before = std::exchange(borne, bears);
       const bool same = tell && before.size() > 0 && size > 1e-9 * at.reference &&
                         (bears - before).cwiseAbs().maxCoeff() <= 0.01 * size;
       alike = same ? alike + 1 : 0;
       found.away = same ? motion_of(bears, next.status, problem.components()) : Mechanism{};
    }
-   // What opens everywhere is for find_mechanism() to prove: a spring may hold a body before it
-   // touches.
+   // For a body that opens everywhere find_mechanism() has the proof, because a spring may hold
+   // a body before it touches.
    found.away.exists = !found.bear_nothing && alike > 1 && found.away.slides;
    return found;
 }

@@ -36,7 +36,7 @@ struct Method
 {
    const char *name;
    Search (*find)(Increment &at);
-   bool thorough; ///< left out if a quick answer is wanted
+   bool thorough; ///< left out if a quick answer is requested
 };
 
 /// Weak springs: free bodies under loads that nearly balance each other, which tip or roll to
@@ -146,7 +146,7 @@ void explain_failure(Increment &at)
          << "the displacements are so large that the contact forces are lost in round-off ("
          << at.cause.lost_in_round_off << " of the largest force)";
    }
-   // Where nothing moves freely there is always an equilibrium, whatever the friction.
+   // If no body can move freely, there is always an equilibrium, at any friction.
    else if (const Index node = s.problem.rigid_motions.cols() > 0 ? s.above_critical(p) : -1;
             node >= 0)
    {
@@ -191,8 +191,8 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
    solved = solved && find_end(at);
    // 3. A body that slides away may look like an answer, even to ends_here().
    solved = solved && !runs_away(at);
-   // 4. Free bodies that nothing moves. (With a law that bends, the pressures found may prove
-   // that there is no equilibrium.)
+   // 4. Free bodies that no load moves. (With a law that bends, the pressures that were found
+   // may prove that there is no equilibrium.)
    if (!solved && !mechanism.exists)
    {
       solved = !(bends() && at.finds_mechanism()) && rests(at);

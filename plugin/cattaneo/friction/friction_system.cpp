@@ -80,7 +80,7 @@ FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
    if (frictionless())
    {
       counters.dense_factorisations = without_slip->tangential ? 1 : 0;
-      // If a body is free to slide away up a slope, the small rest of K is round-off of C.
+      // If a body can slide freely up a slope, the small remainder of K is round-off of C.
       product = std::make_shared<StiffnessProduct>(
          StiffnessProduct{SymmetricProduct(K), RoundOff(problem.C())});
       whole_product = std::make_shared<StiffnessProduct>(

@@ -24,7 +24,7 @@ void sweep(Increment &at)
    ++s.counters.sweeps;
    for (Index i = 0; i < s.n; ++i)
    {
-      // No resistance: the body is free to slide away up a slope.
+      // Without resistance the body can slide freely up a slope.
       if (s.frictionless() && !(s.lone.kn[i] > 0)) { continue; }
       LoneNode node = s.frictionless() ? LoneNode{} : lone_node(s.problem, i);
       if (!s.frictionless()) { node.bound = s.bound[i].straight(std::max(at.F[s.m(i)], 0.0)); }

@@ -66,7 +66,7 @@ std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &hi
       const auto row = history.multipliers.row(static_cast<Eigen::Index>(l));
       Eigen::Index point = 0;
       while (point < row.size() && row[point] == 0) { ++point; }
-      // It grows from the point before on.
+      // The load grows from the point before this one.
       const Eigen::VectorXd &p = problem.patterns[l].p;
       const bool presses = p.sum() * row.sum() > 1e-9 * p.lpNorm<1>() * row.lpNorm<1>();
       if (!presses || point == row.size() || point == 0 ||

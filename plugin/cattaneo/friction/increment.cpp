@@ -37,7 +37,7 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
       F = state.forces() - s.problem.clamped_forces(state.multipliers);
    }
    else { F = s.product->times(u); }
-   // So does initial slip; slip that displacements elsewhere follow does not.
+   // So does initial slip, but not slip from which displacements of other nodes follow.
    reference = std::max(reference, F.cwiseAbs().maxCoeff());
    F += f;
    swept = {u, status};
@@ -119,9 +119,9 @@ ContactState Increment::end() const
                                                       : NodeState::backward_slip;
       }
    }
-   // Held rows do not move, even if all forces are round-off and any state is an answer.
+   // Held rows do not move, even if all forces are round-off so that any state is an answer.
    for (const Index row : s.problem.held) { next.v[row] = next.q[row] = 0; }
-   // Round-off must not look like traction or penetration.
+   // Round-off must not appear as a traction or an overlap.
    for (Index i = 0; i < s.n; ++i)
    {
       if (closed(status[i])) { continue; }
@@ -149,7 +149,7 @@ bool Increment::residuals()
 {
    const FrictionSystem &s = system;
    const VectorXd left = round_off();
-   const double allowed = 0.5 * s.settings.tolerance * scale(); // room for the last word
+   const double allowed = 0.5 * s.settings.tolerance * scale(); // reserve for the final check
    double normal = 0, tangential = 0;
    bool small = true;
    for (Index i = 0; i < s.n; ++i)
@@ -160,7 +160,7 @@ bool Increment::residuals()
       small = small && std::abs(R.normal) <= std::max(allowed, left[s.m(i)]);
       if (s.frictionless()) { continue; }
       const double limit = std::max(allowed, round_off_along(left, i));
-      // An open node bears nothing, not even f times the round-off of its pressure.
+      // An open node carries no force, not even f times the round-off of its pressure.
       double size = magnitude(closed(status[i]) ? R.tangential : at.q);
       small = small && size <= limit;
       if (s.disc() && closed(status[i]))

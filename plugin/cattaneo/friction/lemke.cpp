@@ -77,7 +77,7 @@ Search lemke(Increment &at)
    const VectorXd u = s.frictionless() ? at.start.w : at.start.displacements(),
                   F = s.frictionless() ? at.start.p : at.start.forces();
    Starts starts(at);
-   // Small departures follow the physical way; larger ones pass by its dead ends.
+   // Small departures follow the physical path; larger ones avoid its dead ends.
    for (const double slack : {1e-3, 1e-2, 0.1, 1.0, 10.0, 1.0, 0.1, 1.0})
    {
       if (starts.from(u, F, states, slack)) { return Search::found; }
@@ -91,7 +91,7 @@ Search lemke(Increment &at)
 Search lemke_from_afar(Increment &at)
 {
    FrictionSystem &s = at.system;
-   // Without friction there is one answer, to which all starts lead.
+   // Without friction there is one answer, and all starts lead to it.
    if (s.frictionless()) { return Search::not_here; }
    // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
    const double operations = moves_away(at) ? 1e8 : 1e9;

@@ -35,7 +35,7 @@ LoadHistory LoadHistory::through(const ReducedProblem &problem,
                                  int cycles)
 {
    std::vector<Eigen::VectorXd> ordered;
-   NamedLoads loads; // with those of the points before
+   NamedLoads loads; // with those that only earlier points name
    for (const NamedLoads &point : points)
    {
       for (const auto &[name, value] : point) { loads[name] = value; }
@@ -70,7 +70,7 @@ LoadPiece LoadHistory::piece(int k) const
    }
    const double passed = std::max(0, piece.cycle - 1) * duration;
    piece.start = times[piece.point] + passed;
-   // The next piece's start where there is one, so that both are the same number.
+   // The start of the next piece, if there is one, so that both are the same number.
    piece.end = piece.ends_cycle && piece.cycle < cycles
                   ? times[opening] + piece.cycle * duration
                   : times[piece.point + 1] + passed;

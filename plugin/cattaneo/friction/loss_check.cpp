@@ -67,7 +67,7 @@ double sum(const Losses &of)
    return std::accumulate(of.pieces.begin(), of.pieces.end(), 0.0);
 }
 
-/// Estimated error of the loss of a march from `start`, compared with that of its exact path.
+/// Bound or estimate of the error of the loss of a march from `start`.
 class LossCheck
 {
 public:
@@ -87,8 +87,8 @@ public:
    LossError find();
 
 private:
-   /// Marches the same history with other settings. Returns a sentence if this does not arrive
-   /// at the same time.
+   /// Marches the same history with other settings. Returns the reason if this march does not
+   /// reach the same time.
    std::string march_again(Stepping stepping, double share);
    bool bounded(double &apart);
    void estimate(double at_least);

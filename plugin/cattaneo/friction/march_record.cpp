@@ -20,7 +20,7 @@ void find_slip_origin(const ContactState &before, ContactState &next)
    for (Index i = 0; i < n; ++i)
    {
       const NodeState then = before.status[i], now = next.status[i];
-      double along = 0; // old shear along the new: negative if slip has turned round
+      double along = 0; // old shear along the new one: negative if slip has reversed
       for (Index k = i; now == NodeState::slip && k < next.q.size(); k += n)
       {
          along += before.q[k] * next.q[k];
@@ -197,7 +197,7 @@ void MarchRecord::find_cut_off()
    }
 }
 
-/// The steps since the last row are one.
+/// The steps since the last row make one row.
 void MarchRecord::end_row()
 {
    IncrementRecord record = record_of(problem_, state_);

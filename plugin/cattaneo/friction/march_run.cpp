@@ -12,7 +12,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Forces of a state that is handed out where another could be chosen, over the largest.
+/// Largest relative residual with which a state is accepted that could be replaced by another
+/// one.
 constexpr double known_to = 1e-9;
 
 } // namespace
@@ -105,7 +106,7 @@ void MarchRun::accept(MarchStep &&step)
    progress_.note(share(), record_.report.counters.increments, state_.time);
 }
 
-/// Asked between increments, wherever the march can be taken up again.
+/// Called between increments, wherever the march can be resumed.
 bool MarchRun::is_stopped()
 {
    if (!settings_.monitor.stopped()) { return false; }
@@ -192,8 +193,8 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
    if (self_similar()) { failed = state_.time; } // no smaller load has one either
    else if (failure.status == FrictionStatus::stalled && beyond < piece_.end())
    {
-      // At the limit itself one or two nodes carry everything, so its nature shows only beyond
-      // it.
+      // At the limit itself one or two nodes carry all forces, so the kind of failure shows
+      // only beyond it.
       const MarchStep trial = attempt(beyond);
       if (!trial.solved()) { failure = trial.increment; }
    }
@@ -216,8 +217,8 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
          continue;
       }
       reached = middle;
-      // So close to the limit few nodes hold everything, and forces lose digits. The load is
-      // known to have an equilibrium, but the state is not returned.
+      // So close to the limit few nodes carry all forces, which lose digits. There is an
+      // equilibrium at this load, but the state is not returned.
       const IncrementReport &found = trial.increment;
       const double stated =
          std::max({found.residual_normal, found.residual_tangential, found.round_off});
@@ -402,7 +403,7 @@ bool MarchRun::follow_path()
    // 1. The path begins at an equilibrium.
    bool started = start_path();
    // Events without progress: nodes that change their states at the same load, one after the
-   // other. More than there are nodes and states go round in a circle.
+   // other. If there are more events than nodes, the states repeat themselves.
    const long patience = 4 * problem_.nodes() + 16;
    long halted = 0;
    while (state_.time < piece_.end())
@@ -450,7 +451,7 @@ bool MarchRun::stay(double target)
 
 bool MarchRun::march_piece()
 {
-   // 1. Loads that stay.
+   // 1. Constant loads.
    if (piece_.loads().from == piece_.loads().to && stay(piece_.end())) { return true; }
    // 2. One increment where that is exact.
    const bool exact = exact_in_one();

@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// With fewer nodes all are as fast.
+/// With fewer nodes, to use all of them is as fast.
 constexpr Index many_nodes = 256;
-/// More than that leave out too little.
+/// With more eighths too few nodes would be left out.
 constexpr int most_eighths = 6;
 
 bool solves(const IncrementReport &report)
@@ -246,7 +246,7 @@ ContactState NearContact::whole(const ContactState &before, const ContactState &
    placed(far_.rows()) = u;
    next.v = placed.head(whole_.slips());
    next.w = placed.tail(whole_.nodes());
-   // Exact to the last bit, where round-off must not look like slip.
+   // Exact to the last bit, because round-off must not appear as slip.
    next.v(slips_) = part.v;
    next.w(nodes_) = part.w;
    next.q.setZero();
@@ -277,7 +277,7 @@ NearContacts::NearContacts(FrictionSolver &solver)
 
 int NearContacts::eighths(const ContactState &state)
 {
-   // What nothing holds may land anywhere.
+   // Free bodies may come to rest anywhere.
    if (!worthwhile_ || free_motions(problem_, state.status).cols() > 0) { return 0; }
    if (!far_) { far_ = std::make_unique<FarFirst>(problem_); }
    Index farthest = -1;
@@ -319,7 +319,7 @@ std::shared_ptr<NearContact> NearContacts::near(int eighths)
    }
    catch (const InputError &)
    {
-      // So few nodes do not know all that moves.
+      // So few nodes do not determine all motions.
    }
    fails_[eighths] = !made;
    if (!made) { return nullptr; }

@@ -291,7 +291,7 @@ VectorXd StateEquations::forces_again(const VectorXd &x)
    return F;
 }
 
-/// Takes from x what the forces of the equations amount to.
+/// Subtracts from x the displacements by the residual forces of the equations.
 void StateEquations::step(const VectorXd &F, VectorXd &x) const
 {
    const auto m = static_cast<Index>(slots_.size()), count = static_cast<Index>(active_.size());
@@ -300,7 +300,7 @@ void StateEquations::step(const VectorXd &F, VectorXd &x) const
    for (Index a = 0; a < count; ++a)
    {
       const Border &border = borders_[active_[a]];
-      if (border.in_factor) { y[slot_of_[border.now.row]] = 0; } // the old equation is no more
+      if (border.in_factor) { y[slot_of_[border.now.row]] = 0; } // the old equation is gone
    }
    lu_.solve(y);
    for (Index a = 0; a < count; ++a)
@@ -376,7 +376,7 @@ void StateEquations::solve_transposed(const VectorXd &g, VectorXd &y, VectorXd &
    };
    y.setZero(K_.rows());
    step(g);
-   // Once more, with what round-off has left.
+   // Once more, with the residual of round-off.
    const VectorXd through = times_K_(z);
    VectorXd left = VectorXd::Zero(K_.rows());
    visit_all([&](const Equation &e) { left[e.row] = g[e.row] - through[e.row]; });
@@ -401,7 +401,7 @@ bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
       double largest = 0; // over what is reachable
       for (const Equation &e : equations)
       {
-         // Below the smallest double nothing is told apart.
+         // Numbers below the smallest normal double have no digits.
          const double left =
             std::max({reachable[e.row], std::abs(e.factor) * reachable[e.other],
                       std::numeric_limits<double>::min()});

@@ -70,7 +70,7 @@ SurfaceTrace trace_of(const ContactLine &line, const Surface &surface)
 namespace
 {
 
-/// The half-plane's own line, of the other body's turned round.
+/// The half-plane's own line: that of the other body, reversed.
 ContactLine surface_line(const ContactLine &other, const Surface &surface)
 {
    ContactLine line;
@@ -134,7 +134,8 @@ ContactLine surface_line(const ContactLine &other, const Surface &surface)
    return line;
 }
 
-/// Into the line, of what the trace knows; that of a node on the axis goes to its neighbour.
+/// Writes weights of the trace into the line; the weight of a node on the axis goes to its
+/// neighbour.
 void set_weights(ContactLine &line, const SurfaceTrace &trace)
 {
    VectorXd weights = trace.integral([&](double x) { return measure(line.formulation, x); });
@@ -146,7 +147,7 @@ void set_weights(ContactLine &line, const SurfaceTrace &trace)
    for (Index i = 0; i < line.size(); ++i) { line.nodes[i].weight = weights[i]; }
 }
 
-/// It has no dofs but those of its contact nodes.
+/// The half-plane has only the dofs of its contact nodes.
 class SurfaceSolver : public BodySolver
 {
 public:
@@ -186,7 +187,7 @@ double least_eigenvalue(const DenseCholesky &factor, const VectorXd &diagonal)
    return 1 / largest;
 }
 
-/// What moves without resistance, (x, y) along columns.
+/// Motions without resistance, (x, y) along columns.
 MatrixXd translations(const HalfPlane &body, Formulation formulation)
 {
    if (formulation != Formulation::plane) { return Eigen::Vector2d(0, 1); }
@@ -209,13 +210,13 @@ VectorXd stretched(const CondensedBody &body, const HalfPlane &half_plane)
    return u;
 }
 
-/** Adds the loads of a body that is held. With forces from far away it is free to go where they
-    take it, by translations y along the motions R. With u₀ the displacements under the bulk
-    stresses the energy is
+/** Adds the loads of a body that is held. Under far forces it moves freely with them, by
+    translations y along the motions R. With u₀ the displacements under the bulk stresses the
+    energy is
 
        ½ (u - R y - u₀ ℓ)ᵀ S (u - R y - u₀ ℓ) - ℓᵀ Fᵀ y,
 
-    which its least value over y leaves in u and ℓ alone. */
+    whose minimum over y depends on u and ℓ only. */
 void add_loads(CondensedBody &body, const HalfPlane &half_plane)
 {
    const bool plane = body.line.formulation == Formulation::plane;
@@ -403,7 +404,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    const Eigen::SparseMatrix<double> M = kept_of(mass, kept);
    MatrixXd S = M * (factor.inverse() * M);
    S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
-   if (axis) // it moves as no force asks it to
+   if (axis) // no far force moves it
    {
       const VectorXd column = S.col(size - 1) / std::sqrt(S(size - 1, size - 1));
       S -= column * column.transpose();
@@ -470,7 +471,7 @@ struct Standing
    double along; ///< the surface, of its first node
 };
 
-/// Nodes of some chains as a line of their own; elements keep what nodes they are of.
+/// Nodes of some chains as a line of their own; elements keep the numbers of their nodes.
 void append(ContactLine &line, const ContactLine &from, const LineChain &chain)
 {
    LineChain moved = chain;
@@ -495,7 +496,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
    const auto below = static_cast<int>(bodies.size());
    for (Interface &one : interfaces)
    {
-      // Where its body ends at a plane of symmetry the half-plane must know.
+      // If its body ends at a plane of symmetry, the half-plane must say whether it does too.
       const int first = one.first.body;
       if (one.second.body == below && first >= 0 && first < below)
       {

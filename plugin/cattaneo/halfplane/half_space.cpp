@@ -154,7 +154,7 @@ void refuse_overlap(const HalfSpace &contact)
    }
 }
 
-/// Triangles that have an edge alone.
+/// Triangles that have an edge which no other triangle has.
 std::vector<Index> rim_of(const DirectedEdges &edges)
 {
    std::set<Index> rim;
@@ -252,15 +252,15 @@ MatrixXd flexibility(const HalfSpace &contact)
    return F;
 }
 
-/// Stiffness of some rows of a contact whose far body moves as far forces make it.
+/// Stiffness of some rows of a contact whose far body moves freely under far forces.
 struct FreeStiffness
 {
    MatrixXd K;
    MatrixXd clamped; ///< forces of these rows by each far force, if the rows do not move
    MatrixXd moved;   ///< the far body's motions by each far force then
 
-   /** @a F: flexibility of these rows against a far body that is held. @a motions: what one of
-       each far motion moves them by, columns. */
+   /** @a F: flexibility of these rows against a far body that is held. @a motions:
+       displacements of these rows by a unit of each far motion, one column each. */
    FreeStiffness(MatrixXd F, const MatrixXd &motions)
    {
       DenseCholesky factor;

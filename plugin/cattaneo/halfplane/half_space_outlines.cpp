@@ -74,7 +74,7 @@ std::vector<MatrixX2d> HalfSpace::outlines(const std::vector<bool> &cells) const
          edges.emplace(corners[i][k], corners[i][(k + 1) % sides]);
       }
    }
-   // Those that two cells share are there in both directions.
+   // Edges that two cells share occur in both directions.
    std::map<CellCorner, std::set<CellCorner>> onward;
    for (const auto &[from, to] : edges)
    {

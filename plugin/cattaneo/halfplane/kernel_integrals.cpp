@@ -29,7 +29,7 @@ struct Panel
    const SurfaceElement *element;
    double begin, end;   ///< parameters
    double from, to;     ///< places
-   bool uneven = false; ///< the slope of x(t) varies much
+   bool uneven = false; ///< does the slope of x(t) vary much?
 
    Panel(const SurfaceElement &of, const SurfaceTrace &trace, double first = 0, double last = 1)
       : element(&of), begin(first), end(last)
@@ -333,8 +333,8 @@ struct ArithmeticGeometricMean
       double a = r + s, b = distance, c = std::min(r, s);
       double factor = 1;
       do {
-         // a and b become their means. The next c is (a - b)/2, which is c²/4a with the new a
-         // and has no difference of large numbers then.
+         // a and b become their means. The next c is (a - b)/2, which is computed as c²/4a with
+         // the new a, without a difference of large numbers.
          differences += factor * c * c;
          const double next = 0.5 * (a + b);
          b = std::sqrt(a * b);

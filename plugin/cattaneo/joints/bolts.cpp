@@ -172,7 +172,7 @@ BoltedJoint::Part BoltedJoint::part(const LoadPiece &piece, const ContactState &
       if (made.shanks[b]) { first[k] = last[k] = state.multipliers[k]; }
       else
       {
-         // A bolt that is not there yet has a force of exactly zero.
+         // A bolt that is not tightened yet has a force of exactly zero.
          const bool begins = piece.from[k] == 0 && share == 0;
          first[k] = begins || !turned ? 0 : now[static_cast<Index>(b)];
          made.start.multipliers[k] = first[k];
@@ -217,7 +217,7 @@ void BoltedJoint::go_back(const Part &part, const ContactState &before,
    double low = 0, high = 1, at_low = force(before), at_high = force(beyond);
    const double small = 1e-10 * std::abs(before.multipliers[load(bolt)]);
    state = before;
-   int side = 0; // side of zero of the last force
+   int side = 0; // side of zero on which the last force was
    for (int k = 0; k < 100 && force(state) > small; ++k)
    {
       const double share = low + (high - low) * at_low / (at_low - at_high),

@@ -133,7 +133,7 @@ DeckMesh deck_mesh(const std::string &file, const MeshPart &part)
    }
    for (const InputDeck::Element &element : deck.elements)
    {
-      // Programs that know no material write CPS for any plane element.
+      // Programs without materials write CPS for any plane element.
       if (element.section == 0 || element.type.size() < 3) { continue; }
       const std::string family = element.type.substr(0, 3);
       if (family == "CPS" || family == "CPE") { made.names.plane_elements.insert(family); }

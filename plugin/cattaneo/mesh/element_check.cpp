@@ -126,7 +126,7 @@ public:
    Fault fault(const mfem::DenseMatrix &nodes) const
    {
       const Eigen::Map<const MatrixXd> x(nodes.Data(), 2, nodes.Width());
-      if (!x.allFinite()) { return Fault::none; } // said of the node
+      if (!x.allFinite()) { return Fault::none; } // for the message about the node
       const MatrixXd a = x * by_xi_, b = x * by_eta_;
       const VectorXd determinant =
          a.row(0).cwiseProduct(b.row(1)) - a.row(1).cwiseProduct(b.row(0));
@@ -174,7 +174,7 @@ public:
       mesh_.GetElementTransformation(element, &transformation_);
       const mfem::FiniteElement &map = *transformation_.GetFE();
       auto &shape = shapes_[map.GetGeomType()];
-      // The functions of splines are those of the element at hand.
+      // For splines the shape functions depend on the element.
       if (!shape || mesh_.NURBSext) { shape = std::make_unique<Shape>(map); }
       return shape->fault(transformation_.GetPointMat());
    }

@@ -119,7 +119,7 @@ public:
 private:
    using Ends = std::pair<long, long>;
    static Ends ends(long a, long b) { return std::minmax(a, b); }
-   std::map<Ends, int> edges_; ///< and how many elements have them
+   std::map<Ends, int> edges_; ///< and the number of elements with these ends
    std::map<Ends, std::string> boundary_;
 };
 
@@ -173,7 +173,10 @@ void check_mfem(std::istream &in, long size)
          const long vertices = count(in, "vertices", size);
          require(lowest >= 0 && highest < vertices, "mesh file has an element with vertex ",
                  lowest < 0 ? lowest : highest, ", must be 0 to ", vertices - 1);
-         if (!next_word(in, word) || word == "nodes") { break; } // curved: MFEM's to check
+         if (!next_word(in, word) || word == "nodes")
+         {
+            break;
+         } // curved meshes: MFEM checks them
          require(
             word == "2", "mesh file has '", word,
             "' for the number of coordinates, must be 2: the mesh must be in the xy plane");
@@ -192,7 +195,7 @@ void check_mfem(std::istream &in, long size)
    edges.check();
 }
 
-/// Why an element of Gmsh is none of a plane body.
+/// Reason why an element of Gmsh is no element of a plane body.
 std::string why_not(long type)
 {
    static const std::map<std::string, std::set<long>> solids = {
@@ -214,8 +217,8 @@ std::string why_not(long type)
           "Mesh.SecondOrderIncomplete = 0";
 }
 
-/// That an element of Gmsh is in no physical group, and what to do. Its tags: the physical
-/// group (0: none), then the curve or surface.
+/// The message that an element of Gmsh is in no physical group, and what to do. Its tags: the
+/// physical group (0: none), then the curve or surface.
 void check_group(const std::vector<long> &tags, std::size_t corners, const std::string &what)
 {
    const std::string kind = corners == 2 ? "curve" : "surface",
@@ -279,8 +282,8 @@ std::string reason(std::string message)
    return message;
 }
 
-/// Keeps MFEM from writing to stderr what it throws as well, and to stdout that elements are
-/// numbered clockwise, which it turns.
+/// Keeps MFEM from writing its errors to stderr, because it throws them as well, and from
+/// writing to stdout that it reorients elements.
 class Silence
 {
 public:
@@ -378,7 +381,7 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
       }
       for (const GmshMesh::Element &element : mesh.elements)
       {
-         // Those of a deck are this program's own.
+         // The messages about a deck are this program's own.
          if (!curves || is_deck(file) || gmsh_types().at(element.type).corners != 2)
          {
             continue;
@@ -449,7 +452,7 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
    for (int v = 0; v < mesh.GetNV(); ++v)
    {
       const double *at = mesh.GetVertex(v);
-      // In the order along a direction that no mesh has, few are near each other.
+      // Sorted along a direction that no mesh prefers, few nodes are near each other.
       vertices.push_back({0.8191 * at[0] + 0.5736 * at[1], at[0], at[1], 0, false});
    }
    double farthest = 0;
@@ -504,11 +507,11 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
 std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name)
 {
    const int bent = mesh.GetNodes() ? mesh.GetNodalFESpace()->GetMaxElementOrder() : 1;
-   // A mesh out of the plane is refused by check_elements(), nothing else is to be said of it.
+   // check_elements() refuses a mesh out of the plane, so no warning is needed.
    const bool plane = mesh.Dimension() == 2 && mesh.SpaceDimension() == 2;
    if (order >= bent || !plane) { return ""; }
    // How far the mesh is from the curves through the nodes of its elements. Straight sides may
-   // be said by many nodes.
+   // have many nodes.
    const mfem::H1_FECollection collection(order, 2);
    double missed = 0;
    mfem::DenseMatrix at_nodes, exact;
