@@ -65,8 +65,8 @@ std::string history_row(const IncrementRecord &record, double lost, Eigen::Index
    return out.str();
 }
 
-/// Refuses to continue a file whose last row does not have the time and the multipliers of the
-/// state. A row begins with time and cycle, then come the multipliers.
+/// Refuses to continue a file whose last row has another time or other multipliers than the
+/// state. A row begins with time and cycle, followed by the multipliers.
 void check_goes_on(const std::string &file, const std::string &last, const ContactState &from)
 {
    std::vector<double> row;

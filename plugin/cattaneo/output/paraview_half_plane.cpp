@@ -16,7 +16,8 @@ using Eigen::Vector2d;
 constexpr const char *names[] = {"displacement", "sigma_xx", "sigma_yy",
                                  "sigma_zz",     "tau_xy",   "von_mises"};
 
-/// Rows of elements that grow from the contact, whose own are thinned.
+/// Rows of elements whose size grows from the contact on. Along it only a part of its nodes is
+/// used.
 mfem::Mesh window(const HalfPlane &body, const ContactLine &line)
 {
    require(line.formulation == Formulation::plane,

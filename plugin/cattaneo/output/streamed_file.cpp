@@ -11,7 +11,7 @@ namespace cattaneo
 namespace
 {
 
-/// The part of an old file that stays.
+/// The part of an old file that is kept.
 std::string kept_lines(const std::string &file, const std::string &header, double time,
                        const std::function<void(const std::string &)> &check)
 {
@@ -20,7 +20,7 @@ std::string kept_lines(const std::string &file, const std::string &header, doubl
    if (!std::getline(in, line)) { return kept; }
    require(line == header, "file '", file, "' cannot be continued: its first line is '", line,
            "', must be '", header, "'");
-   // The end of a line tells that it is whole.
+   // Only a line with an end is complete.
    while (std::getline(in, line) && !in.eof())
    {
       if (!(std::strtod(line.c_str(), nullptr) <= time)) { break; }

@@ -103,7 +103,7 @@ double middle_of(const ReducedProblem &problem, const Zone &stretch)
       if (!mirrored(problem, end)) { continue; }
       const std::vector<Index> &held = problem.held;
       const bool on_plane = std::count(held.begin(), held.end(), end) > 0;
-      // The node on the axis of revolution is not in the line. This one is beside it.
+      // The node on the axis of revolution is not in the line; this node is its neighbour.
       const double beside =
          on_plane || problem.position.rows() == 0 ? 0.0 : std::abs(problem.position(end, 0));
       return problem.arc_length[end] + (end == stretch.first ? -beside : beside);
@@ -313,8 +313,8 @@ std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactSt
       }
       else
       {
-         // p² is smooth (a parabola for Hertz) but for its last nodes. Its zero is used only if
-         // it is surer than the border of zones().
+         // p² is smooth (a parabola for Hertz) except at its last nodes. Its zero is used only
+         // if its error is smaller than that of the border by zones().
          const VectorXd p = tractions(problem, loaded.p);
          const Index end = side > 0 ? edge.first : edge.last;
          const Zero zero = zero_near_end(problem, end, side > 0 ? edge.last : edge.first, side,
@@ -392,8 +392,8 @@ std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactS
          pair.from = {s[end] - 0.5 * side * h, 0.5 * h};
          pair.to = {s[end] - 1.5 * side * h, 0.5 * h};
       }
-      // The spread of a fit is no bound. The least error is a quarter of a spacing, as in
-      // zones().
+      // The scatter of a fit is no bound, so the error is at least a quarter of a spacing, as
+      // in zones().
       pair.from.error = std::max(pair.from.error, 0.25 * h);
       pair.to.error = std::max(pair.to.error, 0.25 * h);
       pairs.push_back(pair);
@@ -412,7 +412,8 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
    const auto fitted = [&](const ContactState &stuck, std::size_t e, double position)
    {
       EdgeTractions tractions = tractions_from(problem, stuck, edges[e], cracked, position);
-      // A node that is tied outside the contact has no pressure, but is fitted too.
+      // A node that is tied outside of the contact has no pressure, but its shear is fitted
+      // too.
       std::fill(tractions.pressure.begin(), tractions.pressure.end(), 1.0);
       return fit_edge(tractions, settings).k_t;
    };
@@ -505,7 +506,7 @@ EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &
    if (edge.half_width > 0) { result.width = 2 * edge.half_width; }
    for (Index i = edge.first; i <= edge.last; i++)
    {
-      // The nodes read as within the edge only.
+      // Only the nodes within the edge are used.
       if (edge.side * (problem.arc_length[i] - result.edge) <= 0) { continue; }
       result.position.push_back(problem.arc_length[i]);
       result.pressure.push_back(p[i]);

@@ -50,8 +50,8 @@ FittedIntensity fit_in_window(const UsableSamples &usable, const std::vector<dou
    FittedIntensity best =
       *std::min_element(fits.begin(), fits.end(),
                         [&](const auto &a, const auto &b) { return error(a) < error(b); });
-   // The smallest of many errors may be small by chance. Windows that are nearly as good must
-   // agree.
+   // The smallest of many errors may be small by chance, so windows with almost the same error
+   // must agree.
    double spread = error(best);
    for (const FittedIntensity &other : fits)
    {
@@ -102,7 +102,7 @@ UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &
    for (std::size_t i = 0; i < tractions.position.size(); i++)
    {
       const double x = tractions.position[i] - tractions.edge, p = tractions.pressure[i];
-      // A node at the edge, or without pressure, tells nothing of the field.
+      // A node at the edge, or without pressure, gives no information about the field.
       if (x == 0 || (pressed && p <= 0)) { continue; }
       if (side == 0) { side = x > 0 ? 1 : -1; }
       require(x * side > 0, "node ", i, " at ", tractions.position[i],
@@ -138,7 +138,8 @@ EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
       const double t = sample.distance;
       require(t < tractions.width, "a node in contact is ", t, " from the edge at ",
               tractions.edge, ", beyond the width of the contact, ", tractions.width, ".");
-      // The factor (1 - t/width) has the other edge, so that a Hertz contact is fitted exactly.
+      // The factor (1 - t/width) is zero at the other edge, so that a Hertz contact is fitted
+      // exactly.
       const double root = std::sqrt(t * (1 - t / tractions.width));
       normal.push_back(sample.pressure / root);
       tangential.push_back(sample.shear * root);

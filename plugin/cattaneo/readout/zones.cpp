@@ -110,8 +110,8 @@ bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, Z
                          bracket.extrapolate(displacement23, 1, 5, 2), by_parabola, edge);
 }
 
-/// Slip front from the slipping side. With few nodes a straight line is used, with two the line
-/// through them, which nothing confirms.
+/// Slip front from the slipping side. With few nodes a straight line is used. With two it is
+/// the line through them, whose error is not known.
 bool slip_front(const Bracket &bracket, const VectorXd &way, ZoneBorder &edge)
 {
    if (displacement_edge(bracket, way, edge)) { return true; }
@@ -259,7 +259,7 @@ ZoneBorder Reader::border(const Zone &left, const Zone &right) const
    return {s_[i] + fraction * (s_[j] - s_[i]), s_[j] - s_[i]};
 }
 
-/// The borders of a zone of one or two nodes may come out in the wrong order. Then only its
+/// The computed borders of a zone of one or two nodes may be in the wrong order. Then only its
 /// nodes are known.
 void Reader::untangle(std::vector<Zone> &all) const
 {
@@ -487,7 +487,8 @@ Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones)
    };
    doubt(stick.first, -1, stick.from);
    doubt(stick.last, 1, stick.to);
-   // Where slip turns one node alone sticks, even if the bodies have no stick zone there.
+   // Where slip changes its direction a single node sticks, even if the bodies have no stick
+   // zone there.
    if (stick.first != stick.last) { return stick; }
    for (const Index step : {-1, 1})
    {

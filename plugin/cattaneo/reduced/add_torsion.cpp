@@ -8,8 +8,8 @@ namespace cattaneo
 namespace
 {
 
-/// What a contact node sees of displacements around the axis: of other nodes what it sees of
-/// their radial ones, which are odd in r as well, without regard to frames.
+/// Shares of other nodes in a contact node's displacement around the axis. They equal the
+/// shares of the radial displacements, which are odd in r as well, without the frames.
 UnionRows twisting_rows(UnionRows rows, const std::vector<CondensedBody> &twisting)
 {
    for (ContactRow &row : rows.rows) { row.slides[0] = true; }
@@ -18,7 +18,7 @@ UnionRows twisting_rows(UnionRows rows, const std::vector<CondensedBody> &twisti
    {
       const auto &[b, node] = row.dependent[0];
       if (!holds(twisting[b], node, 0)) { continue; }
-      // Nothing faces the node, or one alone that is held as well.
+      // The node faces nothing, or a single node that is held as well.
       row.slides[0] = false;
       const NodeOfBody *other = row.partner();
       require(other ? holds(twisting[other->first], other->second, 0) : row.shares.size() == 1,

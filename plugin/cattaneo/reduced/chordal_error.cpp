@@ -15,8 +15,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Normal forces after gaps have changed, with displacements across the interface alone. Nodes
-/// that bear may open, and open ones may close. Empty if no solution is found.
+/// Normal forces after gaps have changed, with normal displacements only. Closed nodes may
+/// open, and open ones may close. Empty if no solution is found.
 std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, VectorXd open,
                                      const VectorXd &change)
 {
@@ -32,7 +32,7 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
       {
          (bears[i] ? closed : free).push_back(static_cast<int>(i));
       }
-      // Closed nodes move by their distance; on the others no force is left.
+      // Closed nodes move by the change of their gap; the others get no force.
       VectorXd moved = VectorXd::Zero(p.size());
       for (const int i : closed) { moved[i] = -open[i]; }
       if (!free.empty())
@@ -90,7 +90,7 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
    }
    if (!bears)
    {
-      // May the smooth sides meet? The estimate is good to a tenth of itself.
+      // May the smooth sides meet? The estimate has an error of a tenth.
       const bool meet = (off.array() < 0 && (open + 1.1 * off).array() < 0).any();
       if (meet && (problem.gap.array() >= 0).any()) { return unknown; }
       return {};
@@ -101,7 +101,8 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
                   then = after->cwiseQuotient(problem.weights);
    Index largest = 0;
    const double peak = now.maxCoeff(&largest);
-   // The pressures are no more than round-off beside those of the curves, so nothing is known.
+   // The pressures are only round-off compared with those of the curves, so no change can be
+   // given.
    if (peak <= 1e-9 * then.maxCoeff()) { return unknown; }
    const double of_peak = std::max(std::abs(then.maxCoeff() - peak), peak - then[largest]);
    return {(then - now).cwiseAbs().maxCoeff() / peak, of_peak / peak};

@@ -48,7 +48,7 @@ double ElementCurve::length() const
 Vector2d ElementCurve::bulge(double s) const
 {
    if (element->bend) { return {0, 0}; }
-   // A polynomial that is zero at the nodes, with the slopes that turn the element's own
+   // A polynomial that is zero at the nodes. Its slopes at the ends turn the element's own
    // tangents to those of the line. Inner nodes of a straight element are on its chord, and not
    // on the curve.
    const Vector2d chord = element->points.rightCols(1) - element->points.leftCols(1);
@@ -74,7 +74,8 @@ Vector2d ElementCurve::bulge(double s) const
       return std::abs(slope) > 1e-9 * size ? slope / product : 0.0;
    };
    double first = factor(0), second = factor(last);
-   // The end of a line has no other tangent than the element's: it is taken to bend alike.
+   // At the end of a line only the element's tangent is known: the curve is assumed to bend
+   // there as at the other end.
    if (first == 0) { first = second; }
    if (second == 0) { second = first; }
    const Vector2d along = derivative(s).normalized();
@@ -140,8 +141,8 @@ struct Candidate
    double apart;
 };
 
-/// Parameter at which an increasing function crosses zero; 0 if it begins above, 1 if it ends
-/// below.
+/// Parameter at which an increasing function crosses zero; 0 if it is positive from the
+/// beginning, 1 if it is negative to the end.
 template <class Function>
 double crossing(const Function &value, double at_begin, double at_end)
 {
@@ -164,7 +165,7 @@ double FacingLines::opposite(const FacingPart &part, double s) const
 FacingLines facing(const ContactLine &first, const ContactLine &other, const std::string &what)
 {
    FacingLines result{curves(first, what), curves(other, what), {}};
-   // Shorter parts are round-off of what is no part at all.
+   // Shorter parts are round-off.
    const double sliver = 1e-12;
    for (std::size_t e = 0; e < result.first.size(); ++e)
    {
@@ -196,7 +197,7 @@ FacingLines facing(const ContactLine &first, const ContactLine &other, const std
          if (one.tangent(s).dot(two.tangent(t)) >= 0) { continue; }
          candidates.push_back({part, (one.place(s) - two.place(t)).norm()});
       }
-      // The nearest first; of the others what is left.
+      // The nearest elements come first; farther ones get the rest.
       std::sort(candidates.begin(), candidates.end(),
                 [](const Candidate &a, const Candidate &b) { return a.apart < b.apart; });
       std::vector<FacingPart> taken;

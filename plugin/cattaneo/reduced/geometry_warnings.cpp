@@ -68,7 +68,7 @@ void say_symmetry(const CondensedBody &body, const std::string &name,
    }
 }
 
-/// Bearing nodes of an interface at which normals differ.
+/// Nodes of an interface with contact forces at which the normals of both bodies differ.
 void say_normals(const ReducedProblem &problem, const InterfaceReport &face,
                  const std::vector<bool> &bears, std::vector<std::string> &said)
 {
@@ -100,7 +100,7 @@ void say_normals(const ReducedProblem &problem, const InterfaceReport &face,
       "move the one that is out of place, or let the contact end before it"));
 }
 
-/// Nodes with friction that supports hold along an axis on which their frames lean.
+/// Nodes with friction that supports hold along an axis which is oblique to their frames.
 void say_held(const Reduction &reduction, const InterfaceReport &face,
               const std::vector<bool> &bears, std::vector<std::string> &said)
 {

@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 namespace
 {
 
-/// How the other body goes on beyond the first or last node of a run.
+/// How the boundary of the other body continues beyond the first or last node of a run.
 LineEnd other_end(const MetInterface &met, Index i, bool last)
 {
    const Mortar &mortar = met.mortar;
@@ -38,7 +38,7 @@ LineEnd other_end(const MetInterface &met, Index i, bool last)
          const bool at_end =
             mortar.nodes[i] == (last ? own.first + own.nodes - 1 : own.first) && !own.loop;
          if (!faces || (at_end && beyond > 1e-6 * node.spacing)) { continue; }
-         // A chain of one node has both ends there: the one that does not go on decides.
+         // In a chain of one node both ends are there: the end that does not continue decides.
          if (chain.nodes == 1)
          {
             return chain.ends[0] == LineEnd::smooth ? chain.ends[1] : chain.ends[0];
@@ -178,7 +178,7 @@ void add_facts(ReducedProblem &problem, Index first, bool matching, const MetInt
             k += last ? 1 : -1;
             at_end = std::count(met.without_row.begin(), met.without_row.end(), int(k)) > 0;
          }
-         // Contact that goes on as another interface, tied or not, does not end here.
+         // A contact that continues as another interface, tied or not, does not end here.
          const bool goes_on =
             at_end &&
             std::any_of(

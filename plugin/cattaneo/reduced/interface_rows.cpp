@@ -22,13 +22,13 @@ namespace
 /// Nodes that relative displacements determine, with those that they depend on.
 using Slaves = std::map<NodeOfBody, std::vector<NodeOfBody>>;
 
-/// The line of a body that lies against this one with nodes at the same places.
+/// The line of the other body, if its nodes are at the same places as those of this line.
 ContactLine other_face(const ContactLine &line)
 {
    ContactLine made = line;
    for (LineChain &chain : made.chains)
    {
-      // Of a loop the first node stays the first.
+      // In a loop the first node stays the first one.
       const auto number = [first = chain.first, n = chain.nodes, loop = chain.loop](Index k)
       { return k < 0 ? k : first + (loop ? (n - (k - first)) % n : n - 1 - (k - first)); };
       const double end = line.nodes[chain.first + chain.nodes - 1].arc_length;
@@ -60,7 +60,7 @@ class RowsOfInterface
 public:
    RowsOfInterface(const Interface &given, const std::vector<CondensedBody> &bodies);
 
-   /// Adds them, and their nodes to those taken.
+   /// Adds the rows, and marks their nodes as taken.
    void add_to(std::vector<ContactRow> &rows, Slaves &taken);
    MetInterface met;
 
@@ -74,8 +74,8 @@ private:
    const CondensedBody &slave_body() const { return bodies_[met.slave.body]; }
    /// The node that a node of the slave is paired with; none without a pairing.
    std::optional<NodeOfBody> partner(int node) const;
-   /// Does a support hold a component of what a node of the slave is paired with, or is there
-   /// none?
+   /// Does a support hold a component of the node that a node of the slave is paired with? True
+   /// without a pairing.
    bool partner_holds(int node, int component) const;
    std::vector<int> clamped_ends() const;
    ContactRow row(Index i) const;
@@ -150,7 +150,7 @@ Side RowsOfInterface::side(const InterfaceSide &given) const
    for (const LineNode &node : made.line.nodes)
    {
       const auto found = number.find(node.dofs);
-      // Dofs alone are numbers that other bodies have too.
+      // Numbers of dofs may coincide with those of other bodies, so places are compared too.
       const bool same = found != number.end() &&
                         (body.line.nodes[found->second].position - node.position).norm() <=
                            1e-9 * node.spacing;
@@ -203,15 +203,14 @@ void RowsOfInterface::pair_nodes()
    add_curves(met.master.line, pairs.partner);
 }
 
-/// What smooth curves that elements are chords of make of gaps from node to node; of an
-/// obstacle the line is empty.
+/// Adds to the gaps from node to node the distances between the chords and the smooth curves.
+/// For an obstacle the other line is empty.
 void RowsOfInterface::add_curves(const ContactLine &other, const std::vector<int> &partner)
 {
    const CurveGaps curves =
       curve_gaps(met.slave.line, met.mortar.nodes, met.mortar.tangent, other, partner);
    met.mortar.gap += curves.moved;
-   for (Index i = 0; i < met.mortar.gap.size();
-        ++i) // round-off of what is the same on both sides
+   for (Index i = 0; i < met.mortar.gap.size(); ++i) // round-off of equal changes on both sides
    {
       const double least = 1e-9 * met.slave.line.nodes[met.mortar.nodes[i]].spacing;
       if (std::abs(met.mortar.gap[i]) <= least) { met.mortar.gap[i] = 0; }
@@ -252,8 +251,8 @@ void RowsOfInterface::meet()
       add_curves({}, {});
       return;
    }
-   // Also on an obstacle neighbours carry the part of a node without a row: it is what lies
-   // against the line, and does not move.
+   // Also on an obstacle neighbours carry the force of a node without a row. The obstacle takes
+   // the place of the other line, and does not move.
    met.mortar = mortar(met.slave.line, other_face(met.slave.line), without, met.what);
    for (Mortar::Matrix &other : met.mortar.other)
    {
@@ -264,7 +263,7 @@ void RowsOfInterface::meet()
    met.mortar.arm.setZero();
 }
 
-/// Every node of the slave is faced, by nothing yet.
+/// All nodes of the slave have a row, so far without shares of the other side.
 void RowsOfInterface::face_all()
 {
    const std::vector<int> &without = met.without_row;
@@ -327,8 +326,8 @@ bool RowsOfInterface::partner_holds(int node, int component) const
    return !other || holds(bodies_[other->first], other->second, component);
 }
 
-/// Ends of the slave that supports hold in both components: nodes that move nowhere carry no
-/// row, unless what they are paired with moves across the line.
+/// Ends of the slave that supports hold in both components. Nodes that cannot move have no row,
+/// unless the node that they are paired with can move perpendicular to the line.
 std::vector<int> RowsOfInterface::clamped_ends() const
 {
    std::vector<int> found;
@@ -358,8 +357,8 @@ ContactRow RowsOfInterface::row(Index i) const
    { return at.tangent.cwiseAbs().minCoeff() == 0; };
    if (!made.slides[0] && on_axes(met.slave.line.nodes[node]))
    {
-      // A plane of symmetry, if what it faces has the same one, is across the contact. The mean
-      // of all normals that the row sees beside it need not be.
+      // If both sides end at the same plane of symmetry, the plane is perpendicular to the
+      // contact. The mean of the normals near the node need not lie in the plane.
       const int *other = faced(i, met.slave.line.nodes[node].tangent);
       if (!other || on_axes(bodies_[met.master.body].line.nodes[*other]))
       {
@@ -382,7 +381,8 @@ ContactRow RowsOfInterface::row(Index i) const
    }
    for (const auto &[of, share] : shares)
    {
-      // Round-off of functions that only touch the part would tie nodes that do not meet.
+      // Round-off of functions that only touch the part would connect nodes that do not face
+      // each other.
       if (share.cwiseAbs().maxCoeff() <= 1e-14) { continue; }
       made.shares.push_back({of, share[0], share[1]});
    }
@@ -412,7 +412,7 @@ std::string RowsOfInterface::refusal(const ContactRow &row, Index i) const
           other_slave + "), or fix it there as well";
 }
 
-/// Does anything that some nodes depend on depend on one that they determine?
+/// Do some nodes depend, directly or through others, on a node that they determine?
 bool RowsOfInterface::depends_on_itself(const std::vector<NodeOfBody> &determined,
                                         const std::vector<NodeOfBody> &on,
                                         const Slaves &slaves) const
@@ -440,11 +440,11 @@ void RowsOfInterface::add_to(std::vector<ContactRow> &rows, Slaves &taken)
    if (!can_be_slave(taken, true))
    {
       const bool free = given_.slave == SlaveSide::coarser || given_.slave == SlaveSide::finer;
-      const std::string refused = refused_; // of the side that should be it
+      const std::string refused = refused_; // of the side that should be the slave
       require(free && met.master.body >= 0 && !given_.pairing, refused);
       std::swap(met.slave, met.master);
       met.of_second = !met.of_second;
-      // Rings would be of a place that is named twice, the other way round.
+      // A ring here would come from a place that is named twice, with the sides exchanged.
       require(can_be_slave(taken, false), refused);
    }
    taken = std::move(taken_);
@@ -470,7 +470,7 @@ bool RowsOfInterface::can_be_slave(const Slaves &taken, bool in_rings)
          without.push_back(k);
       }
    }
-   // Each node without a row gives its part to its neighbours, which may close a ring then.
+   // Each node without a row passes its part to its neighbours, which may then close a ring.
    for (std::size_t before = without.size() + 1; without.size() != before;)
    {
       if (without.size() >= met.slave.nodes.size())
@@ -518,7 +518,7 @@ bool RowsOfInterface::can_be_slave(const Slaves &taken, bool in_rings)
                on.push_back(share.of);
             }
          }
-         // A tip, which both sides have: where they match it would face itself, and its shares
+         // A tip belongs to both sides. If they match it would face itself, and its shares
          // cancel.
          const bool tip = met.slave.body == met.master.body &&
                           std::count(met.master.nodes.begin(), met.master.nodes.end(),
@@ -558,8 +558,8 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
               "reduce: the bodies must be all plane or all axisymmetric (add torsion to their "
               "reduction, and reduce bodies in space by a pairing)");
    }
-   // A node that several interfaces share is that of the first one. Ties come before all
-   // others: where a tie and a contact meet nothing opens.
+   // A node of several interfaces belongs to the first of them. Ties come before all others,
+   // because a node where a tie and a contact meet cannot open.
    std::vector<std::size_t> order(interfaces.size());
    std::iota(order.begin(), order.end(), 0);
    std::stable_partition(order.begin(), order.end(),

@@ -64,8 +64,8 @@ void require_some(const std::vector<CondensedBody> &bodies,
            interfaces.size(), " interfaces, must be at least one of each");
 }
 
-/// Do supports hold an end of a line in both components? It carries no row then, and its
-/// neighbours take its part, which they do not in a pairing.
+/// Do supports hold an end of a line in both components? Then it has no row, and its neighbours
+/// carry its part (not in a pairing).
 bool has_clamped_end(const CondensedBody &body)
 {
    const auto clamped = [&](Index node)
@@ -117,7 +117,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    rows->rows = rows_of(interfaces, result.bodies, met);
    rows->groups = groups_of(result.bodies.size(), met);
    sort_out(met, *rows);
-   const auto n = static_cast<Index>(rows->free.size()); // none where all is tied
+   const auto n = static_cast<Index>(rows->free.size()); // none if all interfaces are tied
    const auto count = static_cast<int>(result.bodies.size());
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);

@@ -20,9 +20,10 @@ MatrixXd about(const CondensedBody &body, const Eigen::Vector3d &centre, double 
    return R;
 }
 
-/** Rigid motions that all bodies of a group may do, as columns of coefficients. A body's free
-    motions are rigid motions of the whole, so that each direction of these is either free or
-    not: values are 0 or 1 (about hinges, to how far apart they are). */
+/** Rigid motions that all bodies of a group may do, as columns of coefficients. The free
+    motions of a body are a part of the rigid motions, so that each direction of these is either
+    free or not. The values are therefore 0 or 1 (for hinges only approximately, depending on
+    their distance). */
 MatrixXd common_coefficients(const std::vector<CondensedBody> &bodies,
                              const std::vector<int> &group, const Eigen::Vector3d &centre,
                              double size)

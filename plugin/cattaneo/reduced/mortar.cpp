@@ -82,7 +82,7 @@ struct Point
    VectorXd own, facing; ///< functions of both elements
    Vector2d apart;       ///< x_s - x_m, on the outlines
    Vector2d chords;      ///< by which smooth curves would change it
-   Vector2d curved;      ///< apart, less its value on the chords
+   Vector2d curved;      ///< its distance along the normal, less the value on the chords
 };
 
 /// A point of a line's outline.
@@ -105,7 +105,7 @@ struct Outline
    }
 };
 
-/// Is the outline of an element a curve that it is a chord of?
+/// Is the outline of an element a curve whose chord the element is?
 bool follows_curve(const ElementCurve &curve, bool as_meshed)
 {
    return !as_meshed && curve.element->bend && !curve.element->bend->straight();
@@ -128,7 +128,10 @@ double opposite_on_curve(const ElementCurve &first, double s, const ElementCurve
       const double speed = chord.norm() * chord.norm() / chord.dot(direction);
       const double by =
          (place - Outline(other, at, false).place).dot(mean) / (speed * direction.dot(mean));
-      if (!(std::abs(at + by - t) < 0.2)) { return t; } // too far: stay on the elements
+      if (!(std::abs(at + by - t) < 0.2))
+      {
+         return t;
+      } // the step is too large: keep the point on the straight elements
       at += by;
       if (std::abs(by) < 1e-15) { break; }
    }
@@ -193,7 +196,7 @@ struct DualFunctions
 {
    std::vector<int> nodes; ///< indices in Trace::nodes
    MatrixXd weighted;      ///< nodes × points
-   bool positive = false;  ///< each sees enough of its own node
+   bool positive = false;  ///< is the share of its own node large enough in each?
 };
 
 /// Dual functions to the functions `phi` of an element's nodes, as combinations of `tests`
@@ -313,11 +316,11 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { extend(e); }
 }
 
-/** Finds the ends of long elements at short ones. The end node would see a mean of the other
-    body over the long element, while nodes on the short element see the points that face them.
-    Both differ by the part of the displacement that the long element cannot follow. That
-    difference over the short length would be a large strain, and would press the nodes there
-    many times as hard as all others. So the function of the end node is only as wide as the
+/** Finds the ends of long elements at short ones. The end node would use a mean of the other
+    body over the long element, but nodes on the short element use the points that face them.
+    Both differ by the part of the displacement that the long element cannot represent. This
+    difference over the short length would be a large strain, and the pressure there would be
+    many times that of all other nodes. So the function of the end node is only as wide as the
     short element. */
 void Assembly::find_near_ends()
 {
@@ -426,8 +429,8 @@ DualFunctions Assembly::dual(const Trace &trace, std::size_t element,
    return made_of(all ? phi : hats(trace.places(nodes), points), phi, weights, nodes);
 }
 
-/// The nodes of an element that have functions on its faced part. Empty: the line leaves the
-/// master there.
+/// The nodes of an element that have functions on its faced part. Empty: the line does not face
+/// the master there.
 std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
                                         const std::vector<Point> &points)
 {

@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// What errors about a pattern of this name begin with; InputError if it is none, or one of the
-/// other kind is there already.
+/// The beginning of messages about a pattern with this name. InputError if the name is empty,
+/// or if a pattern of the other kind has it already.
 std::string named_pattern(const ReducedProblem &problem, const std::string &name,
                           Control control)
 {
@@ -35,8 +35,8 @@ std::string named_pattern(const ReducedProblem &problem, const std::string &name
    return where;
 }
 
-/// Patterns from number `first` on that have the name of one before them become one with it,
-/// and so do their columns: they have one multiplier, and their conjugates add up.
+/// Joins patterns from number `first` on, and their columns, with an earlier pattern of the
+/// same name: they have one multiplier, and their conjugates add up.
 void join_names(ReducedProblem &problem, std::size_t first, MatrixXd &columns)
 {
    std::vector<LoadPattern> &all = problem.patterns;
@@ -109,7 +109,7 @@ VectorXd Reduction::displaced(const std::string &where,
          const Index node = of.first + i;
          d[node] = t.dot(u);
          d[m + node] = t[0] * u[1] - t[1] * u[0];
-         // What is held lies along an axis, whichever way the frame leans.
+         // A held component lies along an axis, whatever the direction of the frame.
          const bool held = std::count(problem.held.begin(), problem.held.end(), node) > 0;
          const int along = std::abs(t[0]) >= std::abs(t[1]) ? 0 : 1;
          if (held) { d[node] = std::copysign(u[along], u[along] * t[along]); }
@@ -155,7 +155,7 @@ void Reduction::add_obstacle_motion(const std::string &name,
    // The body moves by u + ℓ d: f = K (u + ℓ d) + …, and the reaction is dᵀ f.
    const Eigen::VectorXd f = problem.K * d;
    const auto k = static_cast<Eigen::Index>(problem.patterns.size());
-   // What is not known of the other loads stays so.
+   // Unknown responses of the other loads stay unknown.
    const bool known = problem.knows_loads();
    if (known)
    {
@@ -208,8 +208,8 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
    const double most = problem.K.diagonal().maxCoeff();
    bool resisted = true;
    for (Index a = 0; a < count; ++a) { resisted &= size[a] > 1e-12 * squares[a] * most; }
-   // Motions of unit energy have pivots of what is left of them when the others are free to
-   // follow.
+   // For motions of unit energy a pivot is the energy that remains if the other motions are
+   // free.
    VectorXd unit = VectorXd::Zero(count);
    DenseCholesky factor;
    if (resisted)

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Of each node, given its place and the direction in which it looks.
+/// The gap of each node, from its place and its outward normal.
 template <class Distance>
 VectorXd gaps(const InterfaceReport &nodes, Distance distance)
 {
@@ -33,7 +33,7 @@ VectorXd gaps(const InterfaceReport &nodes, Distance distance)
    return all;
 }
 
-/// The same of the nodes of a surface.
+/// The same for the nodes of a surface.
 template <class Distance>
 VectorXd gaps(const ContactSurface &surface, Distance distance)
 {
@@ -62,13 +62,14 @@ template <class Vector>
 double to_ball(const Vector &e, const Vector &looks, double radius)
 {
    const double along = e.dot(looks), left = along * along - e.squaredNorm() + radius * radius;
-   // Without the difference of large numbers where the node is nearly on it.
+   // Computed without a difference of large numbers if the node is nearly on the circle.
    const double root = std::sqrt(left), near = e.squaredNorm() - radius * radius;
    return radius > 0 ? near / (root - along) : -near / (root + along);
 }
 
-/// The sine of the angle between what a node looks along and a straight obstacle from which on
-/// it meets that: 5 degrees. What leans less is parallel to it, as far as is known of a curve.
+/// The sine of 5 degrees: the least angle between a node's normal and a straight obstacle at
+/// which the normal counts as meeting it. With less it is parallel, within the accuracy of
+/// normals on a curve.
 const double least_sine = std::sin(5 * std::acos(-1.0) / 180);
 
 /// A side of a polyline, of which the first and the last go on without end.
@@ -129,7 +130,8 @@ VectorXd gaps_to_polyline(const InterfaceReport &nodes, const std::vector<Vector
                                   g = (to[0] * along[1] - to[1] * along[0]) / det;
                      if (side.has(s) && std::abs(g) < std::abs(nearest)) { nearest = g; }
                   }
-                  // What looks past the obstacle is as far away as if it leaned towards it.
+                  // A node whose normal passes the obstacle gets the gap that it would have if
+                  // the normal were turned towards it.
                   return std::isfinite(nearest) || !parallel ? nearest : beside / least_sine;
                });
 }

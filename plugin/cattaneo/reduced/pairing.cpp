@@ -47,7 +47,7 @@ struct Matches
    double offset = 0;   ///< the largest along the tangent, in distances of nodes
 };
 
-/// What pairing asks of the nodes of a line or a surface.
+/// The data of the nodes of a line or a surface that pairing needs.
 struct PairedSide
 {
    Eigen::Matrix3Xd place, normal;
@@ -96,7 +96,7 @@ Matches match(const PairedSide &side1, const PairedSide &side2, double tolerance
          const double square = across.squaredNorm(); // 4 for exactly opposite sides
          found.facing = found.facing || square >= 2;
          if (square < 2) { continue; }
-         // What is left of the way without its part along the mean normal.
+         // The distance vector without its part along the mean normal.
          const double offset = (apart - apart.dot(across) / square * across).norm();
          const double spacing = std::min(side1.spacing[i], side2.spacing[j]);
          if (offset > tolerance * spacing) { continue; }
@@ -130,7 +130,7 @@ std::string without_partner(const ContactSurface &surface, const std::vector<boo
           ", the first at " + place_text(surface.nodes[first].position, Formulation::space);
 }
 
-/// What would pair the lines, and where they are.
+/// The tolerance that would pair the lines, and where they are, for messages.
 std::string advice(const ContactLine &line1, const ContactLine &line2)
 {
    double nearest = std::numeric_limits<double>::infinity();

@@ -75,7 +75,7 @@ void from_json(const nlohmann::json &j, Matrix &M)
    }
    const auto values = entries.get<std::vector<typename Matrix::Scalar>>();
    const Eigen::Index rows = whole_number(j, "rows"), cols = whole_number(j, "cols");
-   // Divided, so that no product overflows.
+   // A division, because a product could overflow.
    const auto count = static_cast<Eigen::Index>(values.size());
    require(rows >= 0 && cols >= 0 &&
               (cols == 0 ? count == 0 : count % cols == 0 && rows == count / cols),
@@ -155,7 +155,7 @@ void save(const ReducedProblem &problem, const std::string &file)
                              {"bodies", chain.bodies}});
    }
    j["rigid_motions"] = to_json(problem.rigid_motions);
-   // Only surfaces have a rim, so that files of lines stay as they were.
+   // Only surfaces have a rim, so that files of lines do not change.
    if (!problem.rim.empty()) { j["rim"] = problem.rim; }
    write_whole(file, j.dump() + '\n');
 }

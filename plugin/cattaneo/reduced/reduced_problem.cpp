@@ -137,7 +137,7 @@ void check_motions(const ReducedProblem &problem)
            " relative to the stiffness, must be below 1e-11");
 }
 
-/// What the upper half knew: chains, rigid motions, held components.
+/// Checks of the other data: chains, rigid motions, held components.
 void check_facts(const ReducedProblem &problem)
 {
    const Eigen::Index n = problem.nodes(), m = problem.slips();
@@ -197,7 +197,7 @@ void check_facts(const ReducedProblem &problem)
    check_motions(problem);
 }
 
-/// Of the pieces of a polyline from (0, 0).
+/// Slopes of the pieces of a polyline from (0, 0).
 Eigen::VectorXd slopes(const Eigen::MatrixX2d &points)
 {
    const Eigen::Index n = points.rows();
@@ -424,7 +424,7 @@ void join_coupling(ReducedProblem &problem)
 
 void require_semidefinite(const ReducedProblem &problem)
 {
-   // As much as K may lack in symmetry, which is for validate() to name, as are diagonals.
+   // The allowed asymmetry of K. validate() has the messages about symmetry and diagonals.
    constexpr double round_off = 1e-9;
    if (!(largest_skew(problem.K, problem.K) <= round_off * problem.K.cwiseAbs().maxCoeff()))
    {

@@ -220,7 +220,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       for (int a = 0; a < tangents(); ++a)
       {
          if (row.slides[a]) { continue; }
-         // It moves across what is held alone.
+         // It moves perpendicular to the single held direction.
          own.row(a).setZero();
          own.col(a).setZero();
          own(a, a) = 1;

@@ -51,7 +51,7 @@ void Reduction::add_shank(const std::string &pattern, double stiffness)
    problem.H.col(k) = share * felt;
    problem.H(k, k) = share * response[k];
    join_coupling(problem);
-   // What the shank resists is free no more.
+   // A motion that the shank resists is not free any more.
    const Eigen::MatrixXd &Q = problem.rigid_motions;
    if (F.norm() > 0) { problem.rigid_motions = at_rest(Q, F.transpose() / F.norm() * Q); }
 }

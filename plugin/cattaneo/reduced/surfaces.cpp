@@ -113,7 +113,7 @@ Reduction reduce_surfaces(std::vector<CondensedBody> bodies, std::vector<Contact
    result.bodies = std::move(bodies);
    auto rows = std::make_shared<UnionRows>();
    rows->rows = std::move(contact);
-   // Against an obstacle nothing moves without moving against it.
+   // Every motion of a body on an obstacle is a motion relative to the obstacle.
    if (result.bodies.size() > 1) { rows->groups = {{0, 1}}; }
    const auto n = static_cast<Index>(rows->rows.size());
    for (int i = 0; i < static_cast<int>(n); ++i) { rows->free.push_back(i); }
@@ -122,7 +122,7 @@ Reduction reduce_surfaces(std::vector<CondensedBody> bodies, std::vector<Contact
    Block block = united(result.bodies, *rows, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
    take(std::move(block), 3, problem);
-   // The first body has the nodes; areas are those between both.
+   // The nodes are those of the first body; areas are the means of both.
    const auto count = static_cast<int>(result.bodies.size());
    problem.gap = gap;
    problem.weights = VectorXd::Zero(n);

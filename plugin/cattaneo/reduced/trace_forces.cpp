@@ -15,7 +15,7 @@ MatrixXd Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
            ", must be from 0 to ", bodies.size() - 1);
    const Index n = problem.nodes();
    const int d = dimension(bodies[b].line.formulation);
-   // With torsion the circumferential ones follow, which are none along the line.
+   // With torsion the circumferential forces follow, which have no component along the line.
    const Index tangential = (d - 1) * n;
    require((q.size() == 0 || q.size() >= tangential) && p.size() == n,
            "contact forces: ", q.size(), " tangential and ", p.size(),

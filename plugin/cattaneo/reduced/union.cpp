@@ -22,12 +22,12 @@ namespace
 struct Stiffness
 {
    MatrixXd uu;
-   MatrixXd yu; ///< with `more` columns beside it, for loads
+   MatrixXd yu; ///< with `more` additional columns for loads
    MatrixXd yy;
 };
 
-/// A column at a time: what S has there of the bodies' displacements, felt by all coordinates
-/// that follow. No more than these blocks is in memory at once.
+/// One column at a time: S times the bodies' displacements of this coordinate, and its product
+/// with all later coordinates. Only these blocks are in memory at once.
 Stiffness stiffness(const std::vector<CondensedBody> &bodies, const RelativeDisplacement &map,
                     Index more)
 {
@@ -44,7 +44,7 @@ Stiffness stiffness(const std::vector<CondensedBody> &bodies, const RelativeDisp
          RelativeDisplacement::Matrix(map.E.middleRows(map.offsets[b], rows)).transpose();
       const int *begin = Et.outerIndexPtr(), *row = Et.innerIndexPtr();
       const double *share = Et.valuePtr();
-      // Where nodes match no coordinate has more than one.
+      // If nodes match, each coordinate has one entry at most.
       bool single = true;
       std::vector<int> only_row(size, 0);
       VectorXd only_share = VectorXd::Zero(size), column(rows);
@@ -90,7 +90,7 @@ Stiffness stiffness(const std::vector<CondensedBody> &bodies, const RelativeDisp
 class Minimum
 {
 public:
-   /// V becomes half of what z has left, L⁻¹ V. False if something else moves freely.
+   /// V becomes L⁻¹ V. False if there is another free motion.
    bool compute(MatrixXd K, MatrixXd &V, const MatrixXd &motions_u, const MatrixXd &motions_y)
    {
       if (!factor_.compute(std::move(K))) { return false; }
@@ -106,7 +106,7 @@ public:
       border_.solve_half(resisted_);
       return true;
    }
-   /// What the constraint adds to the energy of z is the square of this; empty without one.
+   /// The constraint adds the square of this to the energy of z; empty without a constraint.
    const MatrixXd &constraint() const { return resisted_; }
    /// y where V z are the forces on it.
    VectorXd at(VectorXd Vz, const VectorXd &z) const
@@ -132,11 +132,12 @@ public:
    RelativeDisplacement map;
    Minimum minimum;
    MatrixXd loads;   ///< forces on y of each pattern
-   MatrixXd motions; ///< that bodies have in common, as forces on {u; y}
+   MatrixXd motions; ///< common motions of bodies, as forces on {u; y}
    double springs = 0;
    std::vector<int> free;     ///< rows {v; w} of all contact nodes of those that are not tied
    MatrixXd of_tied, on_tied; ///< forces on the tied ones, by displacements and by loads
-   /// What loads move contact nodes by, as {v; w} of the rows that slide; empty: none does.
+   /// Displacements of contact nodes by unit loads, as {v; w} of the rows that slide. Empty: no
+   /// load moves any.
    MatrixXd moved;
 
    explicit BodiesUnion(RelativeDisplacement relative) : map(std::move(relative)) {}
@@ -153,7 +154,7 @@ public:
             coordinates[place] = relative[static_cast<Index>(i)];
          }
       }
-      // The free components make up what those that are moved do not.
+      // The free components contribute the rest.
       if (moved.size() > 0) { coordinates.head(m) -= moved * multipliers.head(moved.cols()); }
       if (rest > 0)
       {
@@ -207,7 +208,7 @@ void balance(const MatrixXd &motions, MatrixXd &forces, const VectorXd &scale,
    add_product(forces, motions, push, -1);
 }
 
-/// Those that supports leave free, or all if there is none.
+/// Motions that supports leave free, or all motions if there are no supports.
 std::vector<int> free_bodies(const std::vector<CondensedBody> &bodies)
 {
    std::vector<int> free, all;
@@ -333,7 +334,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
    const auto count = static_cast<Index>(patterns.size());
    Block block;
 
-   // Loads on all bodies, and what these have of their own to answer them.
+   // Loads on all bodies, and the bodies' own responses to them.
    block.H = MatrixXd::Zero(count, count);
    std::vector<MatrixXd> forces;
    VectorXd scale = VectorXd::Zero(count);
@@ -370,8 +371,8 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
    }
    K.yu.rightCols(count) = shared->loads;
 
-   // What moves bodies against each other, as contact nodes see it; a motion that none sees is
-   // not resisted by what closes them.
+   // Motions of bodies relative to each other, in the contact nodes. A motion that moves no
+   // contact node is not resisted by the contact.
    const MatrixXd moving = motions_apart(bodies, map, Y);
    const ThinQR qr = thin_qr(map.G * moving);
    const Eigen::ArrayXd seen = qr.R.diagonal().array().abs();
@@ -400,8 +401,8 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       block.H.row(k) += sign * together.row(k);
    }
 
-   // Rigid motions of the bodies meet no resistance, and their loads do the work F on them. Set
-   // both in S and f, which have them to round-off only.
+   // Rigid motions of the bodies meet no resistance, and their loads do the work F on them.
+   // Both are set exactly in S and f, which have them only to round-off.
    const MatrixXd &Q = qr.Q;
    if (moving.cols() > 0 && rest > 0)
    {
@@ -411,7 +412,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
    }
 
    // Where loads move contact nodes by g the free components take u - ℓ g: forces grow by -S g,
-   // and what a load does work on by -g, if it is one of these.
+   // and the displacement on which such a load does work changes by -g.
    const MatrixXd moved = moved_contacts(bodies, rows, index, count);
    if (moved.size() > 0)
    {
@@ -465,7 +466,7 @@ void take(Block block, int components, ReducedProblem &problem)
    problem.rigid_motions = block.motions;
    for (int row : block.held)
    {
-      problem.K(row, row) = problem.K(m + row % n, m + row % n); // any stiffness would do
+      problem.K(row, row) = problem.K(m + row % n, m + row % n); // any stiffness is possible
       problem.held.push_back(row);
    }
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
