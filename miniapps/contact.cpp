@@ -108,14 +108,14 @@ struct CaseOptions
       study.option(&paraview, "paraview", "Folder for ParaView files.", Text::folder);
    }
 
-   void check_edges() const
+   void check_edges(const std::string &called) const
    {
-      require(edges.empty() || edges.size() == 2 || edges.size() == 3, "option edges has ",
+      require(edges.empty() || edges.size() == 2 || edges.size() == 3, called, " has ",
               edges.size(),
               " times, must have two (pressed, peak) or three (the other end of the cycle)");
       for (std::size_t k = 1; k < edges.size(); ++k)
       {
-         require(edges[k] > edges[0], "option edges: time ", edges[k],
+         require(edges[k] > edges[0], called, ": time ", edges[k],
                  " must be after the pressed state's, ", edges[0]);
       }
    }
@@ -136,7 +136,8 @@ void contact(Study &study)
    OwnHistory history(study);
    study.parse();
    require(options.example.empty(), "option --example stands alone: it prints a case and ends");
-   options.check_edges();
+   const std::string edges = study.options().called("edges");
+   options.check_edges(edges);
    const JointCase joint = options.joint();
    history.check_options();
    if (!joint.unit_of_length.empty())
@@ -157,23 +158,23 @@ void contact(Study &study)
 
    OwnBodies own = make_own_bodies(joint);
    require(options.paraview.empty() || own.known_elements,
-           "option paraview needs the elements of all bodies, which a matrix does not have: "
+           "option --paraview needs the elements of all bodies, which a matrix does not have: "
            "leave it out");
    require(options.paraview.empty() || joint.formulation != Formulation::plane ||
               !joint.bodies.back().half_plane || !std::isnan(joint.bodies.back().depth),
-           "option paraview writes displacements, which on a half-plane are relative to a "
+           "option --paraview writes displacements, which on a half-plane are relative to a "
            "depth: ",
            joint.bodies.back().source.called("half-plane.depth"), " must state it");
    if (!own.known_elements) { own.scene.bodies.clear(); } // of the others nothing is shown
    ReducedProblem &problem = own.scene.problem();
    require(!problem.patterns.empty(), "there is no load: key 'load' of a body must name one");
-   require(options.edges.empty() || (joint.faces.size() == 1 && own.known_elements),
-           "option edges is for one interface of bodies with elements, the case has ",
-           joint.faces.size(), own.known_elements ? "" : " and a body that is a matrix");
-   require(options.edges.empty() || std::isnan(options.thickness),
-           "option edges is per thickness, it goes without the key 'thickness'");
+   require(options.edges.empty() || (joint.faces.size() == 1 && own.known_elements), edges,
+           " is for one interface of bodies with elements, the case has ", joint.faces.size(),
+           own.known_elements ? "" : " and a body that is a matrix");
+   require(options.edges.empty() || std::isnan(options.thickness), edges,
+           " is per thickness, it goes without the key 'thickness'");
    require(options.edges.empty() || (problem.nodes() > 0 && problem.friction.maxCoeff() > 0),
-           "option edges needs friction, because without it nothing sticks");
+           edges, " needs friction, because without it nothing sticks");
    history.about_axis = joint.formulation != Formulation::plane;
    history.bolts = own.bolted ? &*own.bolted : nullptr;
    history.go_with = joint.go_with;
@@ -218,6 +219,8 @@ void contact(Study &study)
    NamedPoints points(study, joint, own);
    points.begin(history.state);
    JointReport joint_report(study, joint, own.scene.reduction);
+   joint_report.begin(history, history.bolts);
+   history.keep = [&](ContactState &reached) { joint_report.keep(reached); };
    if (history.state.time > 0) { joint_report.note(history.state, 0); }
    SmallDisplacements small(own.scene.reduction, even);
    std::optional<ReductionFields> fields;
@@ -286,17 +289,17 @@ void contact(Study &study)
    history.report_march(problem);
    if (!snapshots.times.empty() && snapshots.complete())
    {
-      fretting::MarchedStates edges{problem, snapshots.states[0], snapshots.states[1]};
+      fretting::MarchedStates states{problem, snapshots.states[0], snapshots.states[1]};
       if (snapshots.times.size() == 3 && !history.report.cycles.empty() &&
           history.report.cycles.back().whole)
       {
-         edges.opposite = &snapshots.states[2];
-         edges.cycle = &history.report.cycles.back();
+         states.opposite = &snapshots.states[2];
+         states.cycle = &history.report.cycles.back();
       }
-      if (own.materials.size() == 1) { edges.cracked = CrackedBody::first; }
-      edges.modulus = own.modulus();
-      edges.corner = [&](int end) { return own.corner(end); };
-      report_edges(study, fretting::read_edges(edges));
+      if (own.materials.size() == 1) { states.cracked = CrackedBody::first; }
+      states.modulus = own.modulus();
+      states.corner = [&](int end) { return own.corner(end); };
+      report_edges(study, fretting::read_edges(states));
    }
    if (touches) { report_critical_friction(study, problem); }
 }

@@ -514,6 +514,15 @@ std::string Options::Option::changed(const std::string &now, const std::string &
              : replaced(now, kind == Text::statements ? ";" : " ,", by, key, value);
 }
 
+std::string Options::called(const std::string &name) const
+{
+   const bool typed =
+      changed_.count(name) > 0 ||
+      std::any_of(given_.begin(), given_.end(),
+                  [&](const Given &given) { return given.option->names.name == name; });
+   return says(name) && !typed ? "key '" + name + "'" : "option --" + name;
+}
+
 void Options::change()
 {
    const std::string by = "option --set";

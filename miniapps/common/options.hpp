@@ -118,6 +118,8 @@ public:
 
    /// Does the command line or the case file say it?
    bool says(const std::string &name) const { return said_.count(name) > 0; }
+   /// What it is called in an error: "key 'cycles'" of a case, otherwise "option --cycles".
+   std::string called(const std::string &name) const;
 
    /// InputError if one of these is said in a run that does not use it. @param why as in "goes
    /// with --map"

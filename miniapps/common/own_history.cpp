@@ -21,8 +21,20 @@ using nlohmann::ordered_json;
 namespace
 {
 
+/// The multipliers of all loads, by their names.
+std::string loads_text(const ReducedProblem &problem, const VectorXd &loads)
+{
+   std::vector<std::string> words;
+   for (Eigen::Index k = 0; k < loads.size(); ++k)
+   {
+      words.push_back(problem.patterns[k].name + " = " + message_text(loads[k]));
+   }
+   return listed(words);
+}
+
 /// A saved state must stand where the history stands at its time.
-void check_start(const ContactState &state, const LoadHistory &history)
+void check_start(const ReducedProblem &problem, const ContactState &state,
+                 const LoadHistory &history)
 {
    for (int k = 0; k < history.pieces(); ++k)
    {
@@ -31,12 +43,13 @@ void check_start(const ContactState &state, const LoadHistory &history)
       const VectorXd loads = piece.at((state.time - piece.start) / piece.duration());
       const double scale = history.multipliers.cwiseAbs().maxCoeff();
       require((loads - state.multipliers).cwiseAbs().maxCoeff() <= 1e-9 * scale,
-              "option load-state: the saved state has the load multipliers (",
-              state.multipliers.transpose(), "), the history has (", loads.transpose(),
-              ") at its time ", state.time);
+              "option --load-state: the saved state has the loads ",
+              loads_text(problem, state.multipliers), " at its time ", state.time,
+              ", and the history has ", loads_text(problem, loads),
+              " then: up to there it must be the history of the march that saved the state");
       return;
    }
-   require(false, "option load-state: the saved state's time ", state.time,
+   require(false, "option --load-state: the saved state's time ", state.time,
            " is outside of the history, which ends at ",
            history.piece(history.pieces() - 1).end);
 }
@@ -241,13 +254,15 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
 
 void OwnHistory::check_options()
 {
-   cattaneo::require(cycles_ <= 1 || cycle_start_ >= 0, "option --cycles is ", cycles_,
-                     ", but the history has no cycle: option --cycle-start must give the point "
-                     "at which the cycle starts");
+   const Options &options = study_.options();
+   cattaneo::require(cycles_ <= 1 || cycle_start_ >= 0, options.called("cycles"), " is ",
+                     cycles_, ", but the history has no cycle: ", options.called("cycle-start"),
+                     " must give the point at which the cycle starts");
    cattaneo::require(!study_.options().says("history") ||
                         text_.find_first_not_of("; \t\n") != std::string::npos,
-                     "option --history has no point, must have one at least, as 'P=1' (without "
-                     "the option: all loads from 0 to 1)");
+                     options.called("history"),
+                     " has no point, must have one at least, as 'P=1' (without it all loads go "
+                     "from 0 to 1)");
    stepping_.set(settings);
    if (frames_ != "all") { wanted_ = numbers("--frames", frames_); }
    std::sort(wanted_.begin(), wanted_.end());
@@ -269,7 +284,11 @@ void OwnHistory::begin(const ReducedProblem &problem)
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
       const auto values = history_.multipliers.row(static_cast<Eigen::Index>(k));
-      if (values.cwiseAbs().maxCoeff() > 0) { continue; }
+      // Of a bolt that is tightened nowhere the march says it.
+      const bool bolt = bolts && std::any_of(bolts->bolts().begin(), bolts->bolts().end(),
+                                             [&](const Bolt &one)
+                                             { return one.load == problem.patterns[k].name; });
+      if (bolt || values.cwiseAbs().maxCoeff() > 0) { continue; }
       warn("load '" + problem.patterns[k].name +
            "' is zero throughout the history, so that it does nothing: name it there, as '" +
            problem.patterns[k].name + "=1', or leave it out");
@@ -277,8 +296,15 @@ void OwnHistory::begin(const ReducedProblem &problem)
    state = ContactState::virgin(problem);
    if (!load_state_.empty())
    {
-      state = load_contact_state(load_state_);
-      state.require_of(problem);
+      try
+      {
+         state = load_contact_state(load_state_);
+         state.require_of(problem);
+      }
+      catch (const InputError &error)
+      {
+         throw InputError("option --load-state: file '" + load_state_ + "': " + error.what());
+      }
       LoadHistory expected = history_;
       for (std::size_t b = 0; bolts && b < bolts->bolts().size(); ++b)
       {
@@ -286,7 +312,7 @@ void OwnHistory::begin(const ReducedProblem &problem)
          const Eigen::Index load = bolts->load(b);
          expected.multipliers.row(load).setConstant(state.multipliers[load]);
       }
-      check_start(state, expected);
+      check_start(problem, state, expected);
    }
    check_times("frames", wanted_);
 }
@@ -336,8 +362,8 @@ void OwnHistory::check_times(const std::string &option, const std::vector<double
    const double end = history_.piece(history_.pieces() - 1).end;
    for (double time : times)
    {
-      require(time > state.time && time <= end, "option ", option, ": time ", time,
-              " is outside of the march from ", state.time, " to ", end);
+      require(time > state.time && time <= end, study_.options().called(option), ": time ",
+              time, " is outside of the march from ", state.time, " to ", end);
    }
 }
 
@@ -406,6 +432,11 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    }
    Film *film = problem.nodes() > 0 ? study_.film(problem) : nullptr;
    std::deque<IncrementRecord> last_increments;
+   const auto with_what_is_kept = [&](ContactState reached)
+   {
+      if (keep) { keep(reached); }
+      return reached;
+   };
    auto next = wanted_.begin();
    double last_frame = state.time;
    const auto note = [&](const ContactState &reached, const IncrementRecord &record)
@@ -423,10 +454,10 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       }
       if (history) { history->add(reached, record); }
       if (nodes && frame) { nodes->add(reached); }
-      if (saver) { saver->add(reached, record); }
       if (film) { film->add(problem, reached, record); }
       cycle = record.cycle;
       observe(reached, frame);
+      if (saver) { saver->add(with_what_is_kept(reached), record); }
    };
    Watch watch("march");
    settings.monitor = watch.monitor();
@@ -467,7 +498,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (nodes && !(saver && report.status == FrictionStatus::stopped)) { nodes->add(state); }
       observe(state, true);
    }
-   if (saver) { save(state, save_state_); }
+   if (saver) { save(with_what_is_kept(state), save_state_); }
 }
 
 void OwnHistory::report_state(const ReducedProblem &problem, const std::string &more)

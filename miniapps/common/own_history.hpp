@@ -36,6 +36,9 @@ public:
    /// code of the study says so, and it goes on. InputError if energies overflow.
    void march(const cattaneo::ReducedProblem &problem, const Observer &observe);
 
+   /// The history, after begin().
+   const cattaneo::LoadHistory &history() const { return history_; }
+
    /// Reports the last state: its loads, zones and tractions, and `more` about its forces.
    void report_state(const cattaneo::ReducedProblem &problem, const std::string &more);
    /// Reports the march: cycles, losses, residuals, the changes of an exact path.
@@ -43,6 +46,8 @@ public:
 
    /// Is the problem one about an axis? Zones at the axis begin there.
    bool about_axis = false;
+   /// Called with a state that is saved, for what is to be kept with it.
+   std::function<void(cattaneo::ContactState &)> keep;
    /// Bolts that the history tightens; must outlive it. Null: there are none.
    const cattaneo::BoltedJoint *bolts = nullptr;
    /// Loads that have the multipliers of others: by their names those of the others.

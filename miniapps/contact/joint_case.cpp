@@ -453,9 +453,11 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    }
    if (key.has("guide"))
    {
-      require(sides.size() == 1 && !key.has("motion"), key.called(),
-              ": only the rigid obstacle of an interface with one side can have a guide, and "
-              "it goes without the key motion");
+      require(sides.size() == 1, key.called(),
+              ": only the rigid obstacle of an interface with one side can have a guide");
+      require(!key.has("motion"), key.called(),
+              " has a guide and a motion, must have one of them: a guide has all motions of the "
+              "obstacle");
       const Key guide = key["guide"];
       guide.must_be_of({"x", "y", "rotation", "centre"});
       made.guide = guide_of(guide);
@@ -528,10 +530,14 @@ JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &j
       ends.size() == 2 || key.has("direction"), key.called(),
       " is bolted to the ground, it must have a direction, which points from the ground to "
       "the part that it pulls");
-   if (key.has("direction")) { made.direction = key["direction"].pair(); }
-   const double length = std::hypot(made.direction[0], made.direction[1]);
-   require(length > 0, key.called(), ": its direction is (0, 0), must have a length");
-   for (double &x : made.direction) { x /= length; }
+   if (key.has("direction"))
+   {
+      const std::array<double, 2> along = key["direction"].pair();
+      made.direction = Eigen::Vector2d(along[0], along[1]);
+      require(made.direction->norm() > 0, key.called(),
+              ": its direction is (0, 0), must have a length");
+      made.direction->normalize();
+   }
    made.stiffness = key["stiffness"].number(positive);
    require(key.has("pretension") != key.has("preload"), key.called(), " has ",
            key.has("preload") ? "both" : "none",

@@ -114,8 +114,10 @@ struct JointCase
    {
       std::string name;
       Source source;
-      std::array<Side, 2> ends;              ///< the second of no body: the ground
-      std::array<double, 2> direction{0, 1}; ///< from the second end to the first
+      std::array<Side, 2> ends; ///< the second of no body: the ground
+      /// From the second end to the first. Not given: along the line between their middles,
+      /// about an axis along that.
+      std::optional<Eigen::Vector2d> direction;
       double stiffness = 1;
       /// The forces of its load: what it would carry if nothing gave way, or with `tightened`
       /// what it carries when its tightening ends.

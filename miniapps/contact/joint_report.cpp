@@ -6,7 +6,7 @@
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 
 namespace miniapp
 {
@@ -19,8 +19,76 @@ using nlohmann::ordered_json;
 
 JointReport::JointReport(Study &study, const JointCase &joint, const Reduction &reduction)
    : study_(study), joint_(joint), reduction_(reduction), courses_(reduction.interfaces.size()),
-     range_(joint.bolts.size())
+     range_(joint.bolts.size()), tightenings_(joint.bolts.size())
 {
+}
+
+namespace
+{
+
+/// Under which a saved state keeps what is known of a bolt.
+std::string kept_name(const JointCase::Bolt &bolt)
+{
+   return "bolt " + bolt.name;
+}
+
+} // namespace
+
+void JointReport::begin(const OwnHistory &march, const BoltedJoint *bolts)
+{
+   const LoadHistory &history = march.history();
+   for (std::size_t b = 0; bolts && b < bolts->bolts().size(); ++b)
+   {
+      const std::string &load = bolts->bolts()[b].load;
+      std::size_t k = 0;
+      while (joint_.bolts[k].name != load) { ++k; }
+      // Bolts are tightened in the opening part alone.
+      for (int p = 0; p < history.pieces() && history.piece(p).cycle == 0; ++p)
+      {
+         const LoadPiece piece = history.piece(p);
+         if (!bolts->tightens(b, history, piece)) { continue; }
+         tightenings_[k].push_back({piece.point + 1, piece.start, piece.end});
+         const Index row = bolts->load(b);
+         if (piece.from[row] != piece.to[row]) { continue; }
+         study_.say(text("   point %d of the history (from 0) names bolt '%s', which has this "
+                         "value already: it is tightened to it again (without the name its "
+                         "force follows from the joint)",
+                         piece.point + 1, load.c_str()));
+      }
+   }
+   if (march.state.time == 0) { return; }
+   for (std::size_t k = 0; k < joint_.bolts.size(); ++k)
+   {
+      const auto found = march.state.kept.find(kept_name(joint_.bolts[k]));
+      if (found == march.state.kept.end() || found->second.size() != 6)
+      {
+         known_from_ = march.state.time; // a file of an older version
+         constexpr double far = std::numeric_limits<double>::infinity();
+         range_[k].least = far;
+         range_[k].most = -far;
+         continue;
+      }
+      const std::vector<double> &its = found->second;
+      range_[k] = {its[0], its[1], its[2], its[3], its[4], its[5]};
+   }
+}
+
+void JointReport::keep(ContactState &state) const
+{
+   for (std::size_t k = 0; k < range_.size(); ++k)
+   {
+      const Range &its = range_[k];
+      state.kept[kept_name(joint_.bolts[k])] = {its.load, its.least, its.most,
+                                                its.push, its.tight, its.all_tight};
+   }
+}
+
+/// Is a bolt being tightened at this time, or does it come to the end of it?
+bool JointReport::is_tightened(std::size_t bolt, double time, double load) const
+{
+   if (!joint_.bolts[bolt].tightened) { return load > range_[bolt].load; }
+   return std::any_of(tightenings_[bolt].begin(), tightenings_[bolt].end(),
+                      [&](const Tightening &one) { return time > one.from && time <= one.to; });
 }
 
 std::string JointReport::body(int b) const
@@ -115,7 +183,7 @@ void JointReport::note(const ContactState &state, int cycle)
       Range &range = range_[k];
       const double load =
          std::abs(state.multipliers[reduction_.problem.pattern(joint_.bolts[k].name)]);
-      if (load > range.load)
+      if (is_tightened(k, state.time, load))
       {
          range = {load, now[k], now[k], range.push, now[k], now[k]};
          for (std::size_t other = 0; other < now.size(); ++other)
@@ -305,20 +373,42 @@ void JointReport::report_cycles(const MarchReport &march)
 void JointReport::report_bolts(const ContactState &state)
 {
    const Units &u = study_.units;
-   ResultTable &table =
-      study_.table("bolts", {{"bolt", "bolt"},
-                             {"tightened_to", "tightened to" + u.total(0), "%.6g"},
-                             {"all_tightened", "all tightened" + u.total(0), "%.6g"},
-                             {"force", "force at the end" + u.total(0), "%.6g"},
-                             {"least", "least" + u.total(0), "%.6g"},
-                             {"most", "most since tightened" + u.total(0), "%.6g"}});
+   // Without a record of the march before, what is known begins where this one is taken up.
+   const bool begins = known_from_ > 0;
+   ResultTable &table = study_.table(
+      "bolts",
+      {{"bolt", "bolt"},
+       {"tightened_at", "tightened at point"},
+       {"tightened_to", "tightened to" + u.total(0), "%.6g"},
+       {"all_tightened", "all tightened" + u.total(0), "%.6g"},
+       {"force", "force at the end" + u.total(0), "%.6g"},
+       {"least", "least" + u.total(0), "%.6g"},
+       {"most", std::string(begins ? "most" : "most since tightened") + u.total(0), "%.6g"},
+       {"known_from", begins ? "since time" : ""}});
+   if (begins)
+   {
+      study_.say(
+         text("   the saved state is of an older version and keeps nothing of its bolts: "
+              "'least' and 'most' begin at time %g, where the march is taken up",
+              known_from_));
+   }
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {
       const JointCase::Bolt &bolt = joint_.bolts[k];
       const Range &range = range_[k];
-      study_.row(table,
-                 {bolt.name, range.tight, range.all_tight, now[k], range.least, range.most});
+      std::vector<std::string> points;
+      double last = 0; // when its tightening ended, as far as the march went
+      for (const Tightening &one : tightenings_[k])
+      {
+         if (one.from >= state.time) { continue; }
+         points.push_back(std::to_string(one.point));
+         last = one.to;
+      }
+      const bool unknown = begins && (!bolt.tightened || last <= known_from_);
+      study_.row(table, {bolt.name, listed(points), unknown ? none : range.tight,
+                         unknown ? none : range.all_tight, now[k], range.least, range.most,
+                         unknown ? known_from_ : none});
       // Bolts that are still to be tightened give a little with those that are.
       if (bolt.tightened || range_[k].push <= 1e-3 * bolt.force) { continue; }
       warn(text(

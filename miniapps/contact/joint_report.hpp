@@ -1,10 +1,12 @@
 #pragma once
 
+#include "common/own_history.hpp"
 #include "common/study.hpp"
 #include "contact/joint_case.hpp"
 
 #include <cattaneo/friction/loop.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/joints/bolts.hpp>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +20,11 @@ class JointReport
 public:
    /// All must outlive it.
    JointReport(Study &study, const JointCase &joint, const cattaneo::Reduction &reduction);
+   /// The march that begins: when its bolts are tightened, and what a state from which it is
+   /// taken up keeps of them. Prints which bolts are tightened again by a value that they have.
+   void begin(const OwnHistory &history, const cattaneo::BoltedJoint *bolts);
+   /// Puts into a state that is saved what begin() is to find in it.
+   void keep(cattaneo::ContactState &state) const;
    /// A state that the march has reached, in this cycle (0: in none), or is taken up from (0).
    void note(const cattaneo::ContactState &state, int cycle);
    /// Forces of the contact on the first body, of a case with one interface; also in the
@@ -70,12 +77,23 @@ private:
    struct Range
    {
       double load = 0;            ///< the largest multiplier of the bolt's own load so far
-      double least = 0, most = 0; ///< since then
+      double least = 0, most = 0; ///< since its tightening ended
       double push = 0;            ///< the most that it pushed its ends apart at any time
       double tight = 0;           ///< its force when its own tightening ended
       double all_tight = 0;       ///< and when that of the last bolt did
    };
    std::vector<Range> range_; ///< of each bolt's force
+   /// Points of the history that tighten a bolt, and the times at which each of these begins
+   /// and ends. None of a bolt with a pretension.
+   struct Tightening
+   {
+      int point = 0;
+      double from = 0, to = 0;
+   };
+   std::vector<std::vector<Tightening>> tightenings_;
+   bool is_tightened(std::size_t bolt, double time, double load) const;
+   /// Of a march that is taken up from a state that keeps nothing of its bolts: its time.
+   double known_from_ = 0;
 };
 
 } // namespace miniapp

@@ -14,6 +14,29 @@ namespace miniapp
 
 using namespace cattaneo;
 
+namespace
+{
+
+/// From the second end of a bolt to the first: what the case says, or the line between the
+/// middles of both ends. About an axis it is along that, since the ends are rings.
+Eigen::Vector2d direction_of(const JointCase &joint, const JointCase::Bolt &bolt,
+                             const std::array<Eigen::Vector2d, 2> &ends)
+{
+   if (bolt.direction) { return *bolt.direction; }
+   Eigen::Vector2d apart = ends[0] - ends[1];
+   const double size = std::max(ends[0].norm(), ends[1].norm());
+   if (joint.formulation != Formulation::plane) { apart[0] = 0; }
+   require(apart.norm() > 1e-9 * size, bolt.source.called("between"),
+           ": the middles of both ends are at ", ends[0], " and ", ends[1],
+           ", so that no direction follows from them: the bolt must have the key 'direction', "
+           "which points from the second end to the first");
+   // Without the round-off of the middles.
+   for (double &x : apart) { x = settled(x, 1e4 * apart.norm()); }
+   return apart.normalized();
+}
+
+} // namespace
+
 OwnBodies make_own_bodies(const JointCase &joint)
 {
    OwnBodies own;
@@ -41,14 +64,29 @@ OwnBodies make_own_bodies(const JointCase &joint)
       for (int k : {0, 1})
       {
          if (bolt.ends[k].body < 0) { continue; } // the ground
-         const Eigen::Vector2d along(bolt.direction[0], bolt.direction[1]);
+         const OwnPart &part = parts[bolt.ends[k].body];
+         ends[k] = part.named([&] { return part.middle(bolt.ends[k]); });
+      }
+      const Eigen::Vector2d along = direction_of(joint, bolt, ends);
+      bool held = true;
+      for (int k : {0, 1})
+      {
+         if (bolt.ends[k].body < 0) { continue; }
          OwnPart &part = parts[bolt.ends[k].body];
          // The shank pulls the ends together, with forces of a body's own thickness.
          const double pull =
             (k == 0 ? -bolt.force : bolt.force) / joint.thickness_of(bolt.ends[k].body);
-         ends[k] = part.named([&] { return part.pull(bolt.name, bolt.ends[k], pull * along); });
+         part.named([&] { part.pull(bolt.name, bolt.ends[k], pull * along); });
+         held = held && part.holds_all_of(bolt.name);
       }
-      if (bolt.ends[1].body >= 0) { warn_of_push(joint, bolt, ends); }
+      if (held)
+      {
+         warn(
+            bolt.source.called("between") + ": all nodes that bolt '" + bolt.name +
+            "' pulls are held along it by supports, guides or prescribed displacements, so it "
+            "does nothing");
+      }
+      if (bolt.ends[1].body >= 0) { warn_of_push(joint, bolt, along, ends); }
    }
    std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
    require_own_meshes(joint);

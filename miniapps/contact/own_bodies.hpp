@@ -32,6 +32,7 @@ struct HeldBody
    struct Around
    {
       cattaneo::SharedMatrix K;
+      std::vector<Eigen::Vector2d> place; ///< of each dof
       std::vector<cattaneo::BodyLoad> loads;
       std::vector<Holding> holdings;
    } around;

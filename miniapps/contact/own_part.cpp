@@ -197,7 +197,126 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
             hold("displacement", split(one, " \t")[0],
                  [&] { add_loads(*elastic_, body_.source.called("load"), one, terms_); });
          }
+         require_one_displacement();
       });
+}
+
+std::vector<OwnPart::Dof> OwnPart::dofs_of(const ElasticBody &body) const
+{
+   std::vector<Dof> all(body.space().GetTrueVSize());
+   const mfem::DenseMatrix &places = body.node_coordinates();
+   for (int node = 0; node < places.Width(); ++node)
+   {
+      for (int c = 0; c < body.components(); ++c)
+      {
+         const int dof = body.true_dof(node, c);
+         if (dof < 0) { continue; }
+         all[dof] = {{places(0, node), places(1, node)}, body.components() == 1 ? 2 : c};
+      }
+   }
+   return all;
+}
+
+std::vector<OwnPart::Dof> OwnPart::dofs() const
+{
+   if (elastic_) { return dofs_of(*elastic_); }
+   const AssembledBody body = nodal_->body();
+   std::vector<Dof> all(body.places.component.size());
+   for (std::size_t dof = 0; dof < all.size(); ++dof)
+   {
+      all[dof] = {{body.places.x[dof], body.places.y[dof]}, body.places.component[dof]};
+   }
+   return all;
+}
+
+namespace
+{
+
+/// What a load says of the displacements of a body's dofs.
+struct Prescribed
+{
+   std::string load;
+   std::set<int> dofs;
+   const Eigen::VectorXd *values;
+};
+
+} // namespace
+
+void OwnPart::require_one_displacement() const
+{
+   const ElasticBody *body = twisting_ ? twisting_ : elastic_;
+   std::vector<Prescribed> all;
+   for (const BodyLoad &load : body ? body->patterns() : nodal_->loads)
+   {
+      if (load.control != Control::displacement) { continue; }
+      Prescribed &made = all.emplace_back(Prescribed{load.name, {}, &load.values});
+      if (!body)
+      {
+         const auto its = prescribed_.find(load.name);
+         if (its != prescribed_.end()) { made.dofs = its->second; }
+         continue;
+      }
+      const std::vector<int> its = body->prescribed_dofs(load.name);
+      made.dofs.insert(its.begin(), its.end());
+   }
+   if (all.empty()) { return; }
+   const std::vector<Dof> places = body ? dofs_of(*body) : dofs();
+   const bool plane = joint_.formulation == Formulation::plane;
+   const auto where = [&](int dof)
+   {
+      static const char *const ways[2][3] = {{"along r", "along z", "around the axis"},
+                                             {"along x", "along y", ""}};
+      return told("the node at ", as_text(places[dof].place), " ",
+                  ways[plane][places[dof].component]);
+   };
+   const auto by = [](const Prescribed &one, int dof)
+   { return as_text((*one.values)[dof]) + " per unit of load '" + one.load + "'"; };
+   // A support that a load moves.
+   for (const Holding &held : twisting_ ? around_ : holdings_)
+   {
+      for (const int dof : held.dofs)
+      {
+         for (const Prescribed &one : all)
+         {
+            const bool moved = one.dofs.count(dof) > 0 && (*one.values)[dof] != 0;
+            require(held.kind != "support" || !moved, "support '", held.name, "' holds ",
+                    moved ? where(dof) : "", ", and it is moved by ", moved ? by(one, dof) : "",
+                    ": the part of the load must end before it, by an interval such as "
+                    "3[-1<x<1], or the support must");
+         }
+      }
+   }
+   // Two loads that move the same nodes add up. If they share some alone, as a corner, the
+   // others follow one of them, and the shared ones would follow the sum.
+   for (std::size_t a = 0; a < all.size(); ++a)
+   {
+      for (std::size_t b = a + 1; b < all.size(); ++b)
+      {
+         for (const int component : {0, 1, 2})
+         {
+            const auto of = [&](const std::set<int> &dofs)
+            {
+               std::set<int> own;
+               for (const int dof : dofs)
+               {
+                  if (places[dof].component == component) { own.insert(dof); }
+               }
+               return own;
+            };
+            const std::set<int> first = of(all[a].dofs), second = of(all[b].dofs);
+            if (first == second) { continue; }
+            for (const int dof : first)
+            {
+               const bool moved = second.count(dof) > 0 &&
+                                  ((*all[a].values)[dof] != 0 || (*all[b].values)[dof] != 0);
+               require(!moved, "two loads share ", moved ? where(dof) : "", ", which is to be ",
+                       moved ? by(all[a], dof) : "", " and ", moved ? by(all[b], dof) : "",
+                       ": the part of one must end before it, by an interval such as "
+                       "3[-1<x<1], or both must be one load");
+            }
+         }
+      }
+   }
 }
 
 double OwnPart::size() const
@@ -289,23 +408,16 @@ HeldBody OwnPart::held() const
    }
    if (!elastic_ || elastic_->ranks().distributed()) { return made; }
    made.K = elastic_->shared_stiffness();
-   made.component.resize(elastic_->space().GetTrueVSize());
-   made.place.resize(made.component.size());
-   const mfem::DenseMatrix &places = elastic_->node_coordinates();
-   for (int node = 0; node < places.Width(); ++node)
+   for (const Dof &dof : dofs_of(*elastic_))
    {
-      for (const int c : {0, 1})
-      {
-         const int dof = elastic_->true_dof(node, c);
-         if (dof < 0) { continue; }
-         made.component[dof] = c;
-         made.place[dof] = {places(0, node), places(1, node)};
-      }
+      made.component.push_back(dof.component);
+      made.place.push_back(dof.place);
    }
    made.loads = elastic_->patterns();
    if (twisting_)
    {
-      made.around = {twisting_->shared_stiffness(), twisting_->patterns(), around_};
+      made.around = {twisting_->shared_stiffness(), {}, twisting_->patterns(), around_};
+      for (const Dof &dof : dofs_of(*twisting_)) { made.around.place.push_back(dof.place); }
    }
    return made;
 }
@@ -332,9 +444,21 @@ void OwnPart::make_of_matrix(NodalStiffness matrix)
    }
    for (const std::string &one : split(body_.load, ";\n"))
    {
-      hold("displacement", split(one, " \t")[0],
-           [&] { add_loads(*nodal_, body_.source.called("load"), one, body_.order); });
+      const std::string load = split(one, " \t")[0];
+      hold("displacement", load,
+           [&]
+           {
+              // The rows that it prescribes are those that it would hold alone.
+              std::vector<int> before;
+              std::swap(before, nodal_->fixed);
+              add_loads(*nodal_, body_.source.called("load"), one, body_.order);
+              prescribed_[load].insert(nodal_->fixed.begin(), nodal_->fixed.end());
+              std::set<int> all(before.begin(), before.end());
+              all.insert(nodal_->fixed.begin(), nodal_->fixed.end());
+              nodal_->fixed.assign(all.begin(), all.end());
+           });
    }
+   require_one_displacement();
 }
 
 void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
@@ -362,6 +486,7 @@ void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
                         [&]
                         { add_loads(*twisting_, body_.source.called("load"), one, terms_); });
          }
+         require_one_displacement();
       });
 }
 
@@ -393,24 +518,53 @@ bool OwnPart::has_load(const std::string &load) const
                       [&](const BulkStress &one) { return one.pattern == load; });
 }
 
-Eigen::Vector2d OwnPart::pull(const std::string &load, const JointCase::Side &end,
-                              const Eigen::Vector2d &F)
+Eigen::Vector2d OwnPart::middle(const JointCase::Side &end) const
 {
    require(!end.part.empty(), end.called, " is empty, must name a part of the boundary");
    if (nodal_)
    {
       const ContactLine its = line(end);
       const Eigen::VectorXd weights = its.each(&LineNode::weight);
-      nodal_->add_traction(load, nodal_->nodes_of(end.part), F / weights.sum(), body_.order);
       return its.each(&LineNode::position).transpose() * weights / weights.sum();
    }
    // As long as the traction is: an interval may end within elements, which a line has whole.
-   const BoundaryPart part = boundary_part(end.called, end.part, terms_);
-   const ElasticBody::Extent extent = elastic_->extent(part);
+   const ElasticBody::Extent extent = elastic_->extent(
+      boundary_part(end.called, end.part, terms_), end.called + ": '" + end.part + "'");
    require(extent.size > 0, end.called, ": there is nothing on '", end.part,
            "', must be a part of the boundary");
-   elastic_->add_traction(load, part, F[0] / extent.size, F[1] / extent.size);
    return extent.middle;
+}
+
+void OwnPart::pull(const std::string &load, const JointCase::Side &end,
+                   const Eigen::Vector2d &F)
+{
+   if (nodal_)
+   {
+      const double size = line(end).each(&LineNode::weight).sum();
+      nodal_->add_traction(load, nodal_->nodes_of(end.part), F / size, body_.order);
+      return;
+   }
+   const BoundaryPart part = boundary_part(end.called, end.part, terms_);
+   const double size = elastic_->extent(part).size;
+   elastic_->add_traction(load, part, F[0] / size, F[1] / size);
+}
+
+bool OwnPart::holds_all_of(const std::string &load) const
+{
+   if (elastic_ && elastic_->ranks().distributed()) { return false; } // others may not
+   const std::vector<int> all = fixed();
+   const std::set<int> held(all.begin(), all.end());
+   for (const BodyLoad &one : elastic_ ? elastic_->patterns() : nodal_->loads)
+   {
+      if (one.name != load) { continue; }
+      const double size = one.values.cwiseAbs().maxCoeff();
+      for (Eigen::Index dof = 0; dof < one.values.size(); ++dof)
+      {
+         const bool pushed = std::abs(one.values[dof]) > 1e-12 * size;
+         if (pushed && held.count(static_cast<int>(dof)) == 0) { return false; }
+      }
+   }
+   return true;
 }
 
 CondensedBody OwnPart::condensed(const ContactLine &line, const CondensedBody *alike) const

@@ -6,6 +6,7 @@
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/smooth_sides.hpp>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -26,9 +27,15 @@ public:
 
    cattaneo::ContactLine line(const JointCase::Side &side) const;
    bool has_load(const std::string &load) const;
-   /// An end of a shank: forces that add up to F, spread evenly. The middle of the end.
-   Eigen::Vector2d pull(const std::string &load, const JointCase::Side &end,
-                        const Eigen::Vector2d &F);
+   /// The middle of an end of a shank.
+   Eigen::Vector2d middle(const JointCase::Side &end) const;
+   /// An end of a shank: forces that add up to F, spread evenly.
+   void pull(const std::string &load, const JointCase::Side &end, const Eigen::Vector2d &F);
+   /// Does a load push nothing but what supports and other loads hold?
+   bool holds_all_of(const std::string &load) const;
+   /// InputError if two loads, or a load and a support, ask for different displacements of a
+   /// node.
+   void require_one_displacement() const;
    cattaneo::CondensedBody condensed(const cattaneo::ContactLine &line,
                                      const cattaneo::CondensedBody *alike) const;
    const cattaneo::SmoothSides &sides() const { return sides_; }
@@ -62,6 +69,14 @@ public:
 private:
    void make_of_mesh(OwnBodies &own, int b);
    std::vector<int> fixed() const;
+   /// Place of a dof, its component in words, and whether it turns about the axis.
+   struct Dof
+   {
+      Eigen::Vector2d place{0, 0};
+      int component = 0;
+   };
+   std::vector<Dof> dofs_of(const cattaneo::ElasticBody &body) const;
+   std::vector<Dof> dofs() const;
    /// Does what holds something; all that was free before is its.
    template <class Hold>
    void hold(const std::string &kind, const std::string &name, Hold hold);
@@ -80,6 +95,8 @@ private:
    cattaneo::BodyTerms terms_;
    cattaneo::SmoothSides sides_;            ///< of the mesh, and what was done to it
    std::vector<Holding> holdings_, around_; ///< the second around the axis
+   /// Rows of a matrix that a load prescribes.
+   std::map<std::string, std::set<int>> prescribed_;
 };
 
 /// Of bodies that are matrices each takes the part of its file that has the sets which its

@@ -13,9 +13,9 @@ namespace miniapp
 using namespace cattaneo;
 
 void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
-                  const std::array<Eigen::Vector2d, 2> &ends)
+                  const Eigen::Vector2d &along, const std::array<Eigen::Vector2d, 2> &ends)
 {
-   const Eigen::Vector2d apart = ends[0] - ends[1], along(bolt.direction[0], bolt.direction[1]);
+   const Eigen::Vector2d apart = ends[0] - ends[1];
    if (along.dot(apart) < -1e-6 * apart.norm())
    {
       warn(bolt.source.called("direction") + " points from " +

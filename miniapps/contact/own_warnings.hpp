@@ -14,7 +14,7 @@ namespace miniapp
 /// Warns of a shank that pushes its ends apart, most likely a direction the wrong way, or whose
 /// forces turn the bodies since its ends, of which the middles are given, do not lie along it.
 void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
-                  const std::array<Eigen::Vector2d, 2> &ends);
+                  const Eigen::Vector2d &along, const std::array<Eigen::Vector2d, 2> &ends);
 /// Warns of bodies that overlap by more than the length of a node's part of the line.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);

@@ -234,12 +234,14 @@ private:
             size += std::abs(rest[dof]);
          }
          add(torque);
+         Sum at; // no force, the place alone
+         for (const int dof : one.dofs) { at.add(around.place[dof], {0, 0}); }
          auto its = std::find_if(named_.begin(), named_.end(),
                                  [&](const Named &named)
                                  { return named.kind == one.kind && named.name == one.name; });
          if (its == named_.end())
          {
-            named_.push_back({one.kind, one.name, {}});
+            named_.push_back({one.kind, one.name, at});
             its = named_.end() - 1;
          }
          its->torque += torque;

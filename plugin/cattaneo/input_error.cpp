@@ -6,15 +6,33 @@
 namespace cattaneo
 {
 
-std::string exact_text(double value)
+namespace
+{
+
+/// With at most so many digits the shortest decimal that reads back as the same number; without
+/// one the number to `otherwise` digits.
+std::string shortest_text(double value, int most, int otherwise)
 {
    char text[32];
-   for (int digits = 6; digits <= 17; ++digits)
+   for (int digits = 6; digits <= most; ++digits)
    {
       std::snprintf(text, sizeof text, "%.*g", digits, value);
-      if (std::strtod(text, nullptr) == value) { break; }
+      if (std::strtod(text, nullptr) == value) { return text; }
    }
+   std::snprintf(text, sizeof text, "%.*g", otherwise, value);
    return text;
+}
+
+} // namespace
+
+std::string exact_text(double value)
+{
+   return shortest_text(value, 16, 17);
+}
+
+std::string message_text(double value)
+{
+   return shortest_text(value, 15, 12);
 }
 
 void require_positive(const char *what, double value)

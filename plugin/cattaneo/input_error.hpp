@@ -19,22 +19,25 @@ public:
 
 /// The shortest decimal that reads back as the same number.
 std::string exact_text(double value);
+/// A number in a message: as a user wrote it, which is exact_text() with at most 15 digits.
+/// Numbers that need more were computed, and have 12 digits, without their round-off.
+std::string message_text(double value);
 
-/// A part of a message. Numbers have so many digits that none is taken for another.
+/// A part of a message.
 template <class Part>
 const Part &as_text(const Part &part)
 {
    return part;
 }
-/// As few digits as say the number exactly.
+/// See message_text().
 inline std::string as_text(double value)
 {
-   return exact_text(value);
+   return message_text(value);
 }
 /// "(x, y)".
 inline std::string as_text(const Eigen::Vector2d &place)
 {
-   return "(" + exact_text(place[0]) + ", " + exact_text(place[1]) + ")";
+   return "(" + message_text(place[0]) + ", " + message_text(place[1]) + ")";
 }
 
 /// Throws InputError with the concatenation of @a parts unless @a condition holds.

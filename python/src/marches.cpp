@@ -758,8 +758,9 @@ void bind_marches(nb::module_ &m)
            arg("settings") = told, arg("keep_states") = false, arg("observer") = nb::none(),
            arg("progress") = false, arg("stop") = nb::none(), arg("members"),
            "As march(), whose arguments these are.\n\n"
-           "history: the multiplier of a bolt's load is its force at the end of the piece in "
-           "which it changes. In states it is its pretension. A bolt that would push ends the "
+           "history: a point that names a bolt's load tightens the bolt, and the multiplier is "
+           "its force then; a point that names it again tightens it again. In states the "
+           "multiplier is its pretension. A bolt that would push ends the "
            "march with status 'stopped' where its force is zero.\n"
            "state: of `problem`, where the march begins; None: before any load.\n"
            "settings, keep_states, observer, progress, stop: as march() has them.")

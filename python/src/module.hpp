@@ -21,7 +21,4 @@ void bind_fretting(nanobind::module_ &m);
 void bind_wear(nanobind::module_ &m);
 void bind_design(nanobind::module_ &m);
 
-/// Says in one sentence what does not fit of a call; after all is bound.
-void explain_calls(nanobind::module_ &m);
-
 } // namespace cattaneo::python

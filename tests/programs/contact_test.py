@@ -225,7 +225,7 @@ def test_a_run_cut_in_two_gives_the_same_bits(run):
     assert second["first_cycle"] == 3
     assert second["dissipation"] == whole["dissipation"][2:]
     other = run(*words, 4, "--history", "P=0; P=0.5; P=0.6; P=0.5", "--load-state", state, code=1)
-    assert "the saved state has the load multipliers" in other.error
+    assert "option --load-state: the saved state has the loads P = 1 at its time 5, and the history has P = 0.5 then" in other.error
 
 
 def test_gross_sliding_is_an_outcome_with_its_load(run):
@@ -314,7 +314,7 @@ MISTAKES = [
     ({}, ["--cycles", 0], ["cycles", "is 0", "at least 1"]),
     ({}, ["--cycles", 3], ["--cycles is 3", "no cycle", "--cycle-start"]),
     ({FLOOR + "friction": 0.3}, ["--edges", "1 0.5"], ["edges", "0.5", "after", "1"]),
-    ({"edges": [0.5, 1], FLOOR + "friction": 0}, [], ["edges needs friction"]),
+    ({"edges": [0.5, 1], FLOOR + "friction": 0}, [], ["'edges' needs friction"]),
     ({}, ["--frames", 2], ["frames", "time 2", "from 0 to 1"]),
     ({}, ["--load-state", "nowhere.json"], ["nowhere.json", "cannot read"]),
     ({}, ["--wrong", 3], ["Unrecognized option", "--wrong"]),
@@ -369,7 +369,7 @@ def test_bad_input_is_one_sentence_and_leaves_no_file(run):
         refused(changed(PUNCH, changes), options, words)
     for changes, options, words in LAPS:
         refused(changed(shipped("calculix/laps"), changes), options, words)
-    refused(shipped("calculix/laps"), [], ["option paraview", "a matrix"])
+    refused(shipped("calculix/laps"), [], ["option --paraview", "a matrix"])
     assert "1 and a body that is a matrix" in run.refused(shipped("calculix/laps"), "--edges", "1 2")
     refused(changed(shipped("dovetail"), {"interfaces.flank.pairing": 1e-6}), [], ["pairing", "without a partner", "81 nodes"])
     for text, words in TEXTS.items():

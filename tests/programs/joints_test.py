@@ -471,7 +471,7 @@ def test_warn_of_what_is_not_meant(run):
     keys["history"] = ["F=0", "bolt=1", "Z=1 F=1", "F=0 Z=0"]
     assert run.case(keys).warned() == ""
     # Forces of a shank along y that pass each other at 0.875 - 0.125.
-    keys["bolts"]["bolt"]["between"] = ["high:3[0<x<0.25]", "low:1[0.75<x<1]"]
+    keys["bolts"]["bolt"].update(between=["high:3[0<x<0.25]", "low:1[0.75<x<1]"], direction=[0, 1])
     keys["history"] = ["F=0 Z=0", "F=40 bolt=0.01 Z=1", "F=0 Z=0 bolt=0"]
     assert ("lie at (0.125, 5) and (0.875, 0): its two forces pass each other at a distance of 0.75 and turn the bodies"
             in run.case(keys).warned())

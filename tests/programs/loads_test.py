@@ -1,5 +1,6 @@
 """Loads, bolts and reactions of contact, against closed forms and equilibrium."""
 
+import json
 import math
 
 import pytest
@@ -37,6 +38,111 @@ def test_joint_diagram_up_to_separation_and_beyond(run):
     near(got["bolts"][0]["force"], 40, 1e-9 * 40)
     got = run.case({**case, "history": ["bolt=0", "bolt=1", "bolt=0.25", "F=10"]})
     near(got["bolts"][0]["force"], 10 + SHARE * 10, 1e-9 * 40)
+
+
+def test_naming_a_bolt_again_tightens_it_again(run):
+    """Under a load that took from it, to the force of the drawing; then the load goes, and with it what the bolt would have lost."""
+    case = columns_case(run)
+    got = run.case({**case, "history": ["F=0", "bolt=1", "F=-20", "bolt=1"]})
+    row = got["bolts"][0]
+    near(row["force"], 40, 1e-9 * 40)
+    near(row["least"], 40, 1e-9 * 40)
+    assert row["tightened_at"] == "1, 3"
+    assert "point 3 of the history (from 0) names bolt 'bolt', which has this value already: it is tightened to it again" in got.output
+    near(run.case({**case, "history": ["F=0", "bolt=1", "F=-20", "bolt=1", "F=0"]})["bolts"][0]["force"], 40 + SHARE * 20, 1e-9 * 40)
+    left = run.case({**case, "history": ["F=0", "bolt=1", "F=-20", "F=-20"]})
+    near(left["bolts"][0]["force"], 40 - SHARE * 20, 1e-9 * 40)
+    assert "again" not in left.output and left["bolts"][0]["tightened_at"] == "1"
+    # While a load changes the tool keeps its force.
+    near(run.case({**case, "history": ["F=0", "bolt=1", "bolt=1, F=-20", "F=0"]})["bolts"][0]["force"], 40 + SHARE * 20, 1e-9 * 40)
+    # Two bolts side by side in two passes, as the workshop does it: the first ends with its preload, the second loses a little.
+    case["bolts"]["other"] = {**case["bolts"]["bolt"], "stiffness": 500, "preload": 25}
+    rows = {row["bolt"]: row for row in run.case({**case, "history": ["F=0", "bolt=1", "other=1", "bolt=1"]})["bolts"]}
+    near(rows["bolt"]["force"], 40, 1e-9 * 40)
+    # By hand: the second took 25 s c/(1 + s c) from the first, and loses its share of that with its own stiffness beside the columns.
+    first, second = 300 * COMPLIANCE, 500 * COMPLIANCE
+    near(rows["other"]["force"], 25 - 25 * first / (1 + first) * second / (1 + second), 1e-8)
+    refused = run.refused({**case, "history": ["F=0", "bolt=1", "other=1", "F=1", "bolt=1, F=-1", "F=1"], "cycle-start": 3})
+    assert "the bolt 'bolt' is named within the cycle, at point 4 (from 0)" in refused
+
+
+def test_the_table_of_bolts_goes_on_after_a_cut(run):
+    """To the last digit what an uninterrupted march has; of a state that keeps nothing, the table says where it begins."""
+    case = {**columns_case(run), "history": ["F=0", "bolt=1", "F=-20", "F=10", "F=5"]}
+    whole = run.case(case)["bolts"]
+    state = run.folder / "state.json"
+    for points in (2, 3, 4):
+        run.case({**case, "history": case["history"][:points]}, "--save-state", state)
+        assert run.case(case, "--load-state", state)["bolts"] == whole
+    near(whole[0]["least"], 40 - SHARE * 20, 1e-8)
+    old = json.loads(state.read_text())
+    del old["kept"]
+    state.write_text(json.dumps(old))
+    got = run.case(case, "--load-state", state)
+    row = got["bolts"][0]
+    assert row["known_from"] == 3 and row["tightened_to"] is None and "begin at time 3" in got.output
+    near(row["least"], 40 + SHARE * 5, 1e-8)
+    near(row["most"], 40 + SHARE * 10, 1e-8)
+    other = changed(case, {"bolts.second": {"between": ["high:3", "low:1"], "stiffness": 1, "preload": 1}, "history": ["F=0", "bolt=1", "second=1", "F=1"]})
+    assert "option --load-state: file" in run.refused(other, "--load-state", state)
+
+
+def test_displacements_that_contradict_are_refused(run):
+    """A node that two loads, or a load and a support, would move differently. What agrees there is no mistake."""
+    run.block("block.mesh", -3, 3, 12, -2, 0, 4)
+    def case(loads, support=None, **more):
+        return {"bodies": {"b": body("block.mesh", support, ["P pressure 1 1", *loads])},
+                "interfaces": {"o": {"between": ["b:3"], "friction": 0.3, "obstacle": {"line": [[-5, 0], [5, 0]]}}}, "history": ["P=0", "P=1", *more.pop("then", [])], **more}
+    for loads, support, said in (
+            (["D displacement-x 4 0.01", "F displacement-x 1 0.02"], None, "two loads share the node at (-3, -2) along x, which is to be 0.01 per unit of load 'D' and 0.02 per unit of load 'F'"),
+            (["D displacement-x 4 0.01", "F displacement-x 4[-2<y<-1] 0.01"], None, "two loads share the node"),
+            (["D displacement-x 4 0.01", "F displacement-x 1 0"], None, "two loads share the node at (-3, -2) along x"),
+            (["D displacement-x 4 0.01", "D displacement-x 1 0.02"], None, "its parts must agree where they meet"),
+            (["F displacement-x 1 0.002"], "4:x", "support '4:x' holds the node at (-3, -2) along x, and it is moved by 0.002 per unit of load 'F'"),
+            (["F displacement-x 4 0.002"], "4:x", "support '4:x' holds the node")):
+        message = run.refused(case(loads, support))
+        assert said in message and ("must end before it" in message or "one must end before" in message), message
+    # Along another direction, of value 0 there, by one load, by two loads that move the same nodes, and with an interval between.
+    for loads, support in ((["D displacement-x 4 1e-4", "F displacement-y 1 1e-4"], None), (["F displacement-x 1 1e-5*(x+3)"], "4:x"),
+                           (["D displacement-x 4 1e-4", "D displacement-x 1 1e-4"], None), (["D displacement-x 4 1e-4", "D displacement-x 1[-2.9<x<3] 1e-4"], None),
+                           (["D displacement-x 4 1e-4", "F displacement-x 4 1e-5"], None)):
+        name = loads[-1].split()[0]
+        got = run.case(case(loads, support, then=[f"{name}=1"], points={"corner": [-3, -2]}))
+        if loads[-1].endswith("4 1e-5"):
+            near(run.case(case(loads, support, then=["D=1", "F=1"], points={"corner": [-3, -2]}))["points"][0]["ux"], 1.1e-4, 1e-9)
+        elif name == "D":
+            near(got["points"][0]["ux"], 1e-4, 1e-9)
+
+
+def test_what_is_said_of_bolts(run):
+    """A part that is none, a bolt that pulls held nodes, one without a direction, and one that no point names."""
+    case = {**columns_case(run), "history": ["bolt=0", "bolt=1"]}
+    message = run.refused(changed(case, {"bolts.bolt.between": ["high:9", "low:1"]}))
+    assert "key 'bolts.bolt.between.0': '9': the mesh has no boundary attribute 9; it has: 1, 2, 3, 4" in message
+    unnamed = run.refused({**case, "history": ["F=0", "F=1"]})
+    assert "is never tightened" in unnamed
+    got = run.case(changed(case, {"bolts.ground": {"between": ["low:1"], "direction": [0, 1], "stiffness": 10, "preload": 1}, "history": ["bolt=0", "bolt=1", "ground=1"]}))
+    assert "all nodes that bolt 'ground' pulls are held along it by supports" in got.warned() and "'bolt'" not in got.warned()
+    # Without a direction it lies along the line between its ends: of two columns that lie on their side as of those that stand.
+    run.block("left.mesh", 0, 2, 4, 0, 1, 4)
+    run.block("right.mesh", 2, 5, 6, 0, 1, 4)
+    lying = {"bodies": {"left": body("left.mesh", "1:y 4:x"), "right": body("right.mesh", "1:y", [], 500)}, "interfaces": {"joint": face("right:4", "left:2")},
+             "bolts": {"bolt": {"between": ["right:2", "left:4"], "stiffness": 300, "preload": 40}}, "history": ["bolt=0", "bolt=1"]}
+    got = run.case(lying)
+    near(got.interface("joint")["normal"], 40, 1e-9 * 40)
+    assert got.warned() == ""
+    same = run.refused(changed(lying, {"bolts.bolt.between": ["right:4", "left:2"]}))
+    assert "so that no direction follows from them" in same
+
+
+def test_the_row_of_a_twist_has_its_place(run):
+    """A column about the axis that a twist turns: the row's place is the middle of what it turns."""
+    run.block("column.mesh", 0, 2, 4, 0, 3, 6)
+    got = run.case({"analysis": "axisymmetric", "bodies": {"column": body("column.mesh", None, ["P pressure 3 10", "W twist 3 1e-4"])},
+                    "interfaces": {"floor": {"between": ["column:1"], "friction": 0.3}}, "history": ["P=0", "P=1", "W=1"]})
+    row = [row for row in got["reactions"] if row["name"] == "W"][0]
+    near(row["about_y"], 3, 1e-12)
+    assert 0 < row["about_x"] < 2
 
 
 def test_a_bolt_that_would_push_ends_the_march(run):
@@ -162,7 +268,7 @@ def test_thickness(run):
                            "bodies.high.support": None, "bolts": None, "history": ["F=0", "F=-1"]})
     got = run.case(pushed)
     near(got.interface("joint")["normal"], 4, 1e-10)
-    for wrong, said in (({"edges": [1, 2]}, "option edges is per thickness"), ({"analysis": "axisymmetric"}, "about an axis"), ({"thickness": None}, "key 'thickness' must be there"), ({"thickness": -1}, "thickness")):
+    for wrong, said in (({"edges": [1, 2]}, "key 'edges' is per thickness"), ({"analysis": "axisymmetric"}, "about an axis"), ({"thickness": None}, "key 'thickness' must be there"), ({"thickness": -1}, "thickness")):
         assert said in run.refused(changed(own, wrong))
 
 
@@ -281,7 +387,7 @@ def test_an_indenter_under_a_force(run):
         near(face_["moment"] + face_["about_x"] * face_["force_y"] - (face_["about_y"] - 10) * face_["force_x"], 0, 1e-8)
         near(face_["force_x"], 1, 1e-9)
     for changes, said in (({"interfaces.face.guide.centre": None, "interfaces.face.guide.rotation": "free"}, "must have the key centre"),
-                          ({"interfaces.face.motion": {"D": {"y": 1}}}, "goes without the key motion"),
+                          ({"interfaces.face.motion": {"D": {"y": 1}}}, "has a guide and a motion"),
                           ({"interfaces.face.guide.y": {"force": "P", "displacement": "D"}}, "must have one of the keys force and displacement")):
         assert said in run.refused(changed(rolled, changes))
 

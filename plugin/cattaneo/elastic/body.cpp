@@ -437,6 +437,20 @@ SharedMatrix ElasticBody::shared_stiffness() const
    return shared(stiffness_);
 }
 
+std::vector<int> ElasticBody::prescribed_dofs(const std::string &pattern) const
+{
+   std::vector<int> dofs;
+   for (std::size_t k = 0; k < patterns_.size(); ++k)
+   {
+      if (patterns_[k].name != pattern) { continue; }
+      for (std::size_t t = 0; t < prescribed_[k].size(); ++t)
+      {
+         if (prescribed_[k][t]) { dofs.push_back(static_cast<int>(t)); }
+      }
+   }
+   return dofs;
+}
+
 mfem::Array<int> ElasticBody::essential_dofs() const
 {
    mfem::Array<int> dofs;

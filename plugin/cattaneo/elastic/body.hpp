@@ -118,7 +118,8 @@ public:
       Eigen::Vector2d middle{0, 0}; ///< mean place of its points, (r, z) about an axis
    };
    /// InputError if the mesh has no such part; of size 0 if an interval leaves nothing of it.
-   Extent extent(const BoundaryPart &part) const;
+   /// @param called what the part is called in an error
+   Extent extent(const BoundaryPart &part, const std::string &called = "extent") const;
    /// Circumferential traction t_θ on a boundary part of a torsion body, force per area.
    void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &t);
    /// Body force (b_x, b_y), force per volume.
@@ -164,6 +165,9 @@ public:
    const std::vector<BodyLoad> &patterns() const { return patterns_; }
    /// Sorted true dofs that are fixed or prescribed by a displacement pattern.
    mfem::Array<int> essential_dofs() const;
+   /// Sorted true dofs of this rank whose displacement this pattern prescribes, also as 0; none
+   /// of a pattern of forces.
+   std::vector<int> prescribed_dofs(const std::string &pattern) const;
    /// Material of an element attribute; InputError for a user's operator and for one that
    /// varies.
    const Material &material(int attribute) const;

@@ -125,11 +125,12 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
    add_to_pattern(pattern, forces);
 }
 
-ElasticBody::Extent ElasticBody::extent(const BoundaryPart &part) const
+ElasticBody::Extent ElasticBody::extent(const BoundaryPart &part,
+                                        const std::string &called) const
 {
    mfem::Mesh &mesh = *space_->GetMesh();
    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, 1);
-   for (int i : boundary_elements(mesh, part, "extent"))
+   for (int i : boundary_elements(mesh, part, called))
    {
       BoundaryEdge edge(mesh, i);
       const mfem::IntegrationRule &rule = edge.rule(space_->GetBE(i)->GetOrder());
@@ -358,10 +359,12 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
            where, ": component r at ", place, " is to be ", value,
            ", must be zero on the axis");
    const double other = values(dof);
-   require(!prescribed_[k][dof] ||
-              std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
-           where, ": component ", component, " at ", place, " is to be ", value,
-           " but was already prescribed as ", other, " by the same pattern");
+   require(
+      !prescribed_[k][dof] ||
+         std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
+      where, ": component ", component, " at ", place, " is to be ", value,
+      ", and was already prescribed as ", other,
+      " by the same pattern: its parts must agree where they meet, or one must end before");
    values(dof) = value;
    prescribed_[k][dof] = essential_[dof] = true;
 }

@@ -92,6 +92,10 @@ void ContactState::require_finite() const
       finite = finite && all->allFinite();
    }
    for (const Eigen::VectorXd &slip : cycle_slip) { finite = finite && slip.allFinite(); }
+   for (const auto &its : kept)
+   {
+      for (double x : its.second) { finite = finite && std::isfinite(x); }
+   }
    if (cycle)
    {
       double sum = cycle->dissipation + cycle->external_work + cycle->normal_work +

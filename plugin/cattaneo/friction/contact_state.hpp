@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/friction/loop.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,9 @@ struct ContactState
    /// The record of the present cycle so far, so that a march that is resumed within a cycle
    /// knows all of it. Empty between cycles.
    std::optional<CycleRecord> cycle;
+   /// What a program keeps with a state that it saves, by its own names, as the range of a
+   /// bolt's force. No part of the contact: marches do not ask for it.
+   std::map<std::string, std::vector<double>> kept;
 
    /// {v; w}.
    Eigen::VectorXd displacements() const;

@@ -72,6 +72,7 @@ nlohmann::json to_json(const ContactState &state)
    nlohmann::json j = state;
    if (!state.loads.empty()) { j["loads"] = state.loads; }
    if (state.cycle) { j["cycle"] = *state.cycle; }
+   if (!state.kept.empty()) { j["kept"] = state.kept; }
    j["format"] = format_name;
    return j;
 }
@@ -86,6 +87,7 @@ ContactState contact_state(const nlohmann::json &j, const std::string &file)
    auto state = j.get<ContactState>();
    if (j.contains("loads")) { j["loads"].get_to(state.loads); }
    if (j.contains("cycle")) { state.cycle = j["cycle"].get<CycleRecord>(); }
+   if (j.contains("kept")) { j["kept"].get_to(state.kept); }
    return state;
 }
 

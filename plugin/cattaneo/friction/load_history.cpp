@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/friction/load_history.hpp>
 #include <cattaneo/input_error.hpp>
 
@@ -42,10 +43,22 @@ LoadHistory LoadHistory::through(const ReducedProblem &problem,
       ordered.push_back(problem.multipliers(loads));
    }
    LoadHistory history = through(ordered);
+   for (const NamedLoads &point : points)
+   {
+      std::vector<int> &its = history.stated.emplace_back();
+      for (const auto &load : point) { its.push_back(problem.pattern(load.first)); }
+   }
    history.cycle_start = cycle_start;
    history.cycles = cycles;
    history.validate(problem);
    return history;
+}
+
+bool LoadHistory::states(int point, Eigen::Index load) const
+{
+   if (point < 0 || point >= static_cast<int>(stated.size())) { return false; }
+   const std::vector<int> &its = stated[point];
+   return std::find(its.begin(), its.end(), load) != its.end();
 }
 
 int LoadHistory::pieces() const

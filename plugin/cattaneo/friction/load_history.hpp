@@ -41,7 +41,12 @@ struct LoadHistory
    Eigen::MatrixXd multipliers; ///< patterns × points
    int cycle_start = -1;        ///< index of the point where the cycle starts; -1: no cycle
    int cycles = 0;              ///< how often the cycle is marched (1 if there is no cycle)
+   /// Numbers of the loads that each point names; empty: not known. Only bolts ask for it, see
+   /// Bolt: a point that names a bolt tightens it, also where its multiplier stays.
+   std::vector<std::vector<int>> stated;
 
+   /// Does this point name this load?
+   bool states(int point, Eigen::Index load) const;
    /// Points with times 0, 1, 2, …; each inner vector is one point's multipliers.
    static LoadHistory through(const std::vector<Eigen::VectorXd> &points);
    /** Points with times 0, 1, 2, … by the names of loads. A point names the loads that it

@@ -127,6 +127,15 @@ VectorXd BoltedJoint::forces(const ContactState &state) const
    return found;
 }
 
+bool BoltedJoint::tightens(std::size_t bolt, const LoadHistory &history,
+                           const LoadPiece &piece) const
+{
+   const Index k = load(bolt);
+   // A bolt that is not there yet, and is named with a force of zero, is still not there.
+   const bool none = piece.from[k] == 0 && piece.to[k] == 0;
+   return piece.from[k] != piece.to[k] || (!none && history.states(piece.point + 1, k));
+}
+
 /// The last piece of the history in which a bolt is tightened. InputError: see march().
 int BoltedJoint::last_tightening(const LoadHistory &history) const
 {
@@ -146,9 +155,12 @@ int BoltedJoint::last_tightening(const LoadHistory &history) const
       for (int k = 0; k < history.pieces(); ++k)
       {
          const LoadPiece piece = history.piece(k);
-         if (piece.from[load(b)] == piece.to[load(b)]) { continue; }
+         if (!tightens(b, history, piece)) { continue; }
          require(piece.cycle == 0, where,
-                 "changes its preload within the cycle, must be tightened before the cycle");
+                 piece.from[load(b)] != piece.to[load(b)] ? "changes its preload" : "is named",
+                 " within the cycle, at point ", piece.point + 1,
+                 " (from 0), and would be tightened again in each cycle: it must be tightened "
+                 "before the cycle, and the points of the cycle must leave it out");
          last = std::max(last, k);
       }
    }
@@ -156,7 +168,8 @@ int BoltedJoint::last_tightening(const LoadHistory &history) const
 }
 
 /// A piece of the opening part, or the rest of it after the time of the state.
-BoltedJoint::Part BoltedJoint::part(const LoadPiece &piece, const ContactState &state) const
+BoltedJoint::Part BoltedJoint::part(const LoadHistory &history, const LoadPiece &piece,
+                                    const ContactState &state) const
 {
    Part made;
    made.start = state;
@@ -167,7 +180,7 @@ BoltedJoint::Part BoltedJoint::part(const LoadPiece &piece, const ContactState &
    for (std::size_t b = 0; b < bolts_.size(); ++b)
    {
       const Index k = load(b);
-      const bool turned = piece.from[k] != piece.to[k];
+      const bool turned = tightens(b, history, piece);
       made.shanks.push_back(piece.from[k] > 0 && !turned);
       if (made.shanks[b]) { first[k] = last[k] = state.multipliers[k]; }
       else
@@ -318,7 +331,7 @@ MarchReport BoltedJoint::march(const LoadHistory &history, ContactState &state,
       {
          of_piece.increments = settings.increments_of_piece[piece.point];
       }
-      report = joined(report, march(part(piece, state), state, of_piece, observer));
+      report = joined(report, march(part(history, piece, state), state, of_piece, observer));
       if (report.status != FrictionStatus::converged) { return report; }
    }
    // 2. March the rest, in which all bolts are shanks.

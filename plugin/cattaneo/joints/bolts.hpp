@@ -10,10 +10,12 @@ namespace cattaneo
 {
 
 /** A bolt that is tightened to a force. Before tightening it does nothing, during tightening it
-    pulls with the force of the tool, afterwards it is a spring. When the multiplier of its load
-    changes in a piece of the load history, the multiplier at the end of the piece is the bolt's
-    force, in units of the load's forces: 1 if these are those of the preload. When the
-    multiplier stays, nobody turns the nut, and the force follows from the joint. */
+    pulls with the force of the tool, afterwards it is a spring. A point of the load history
+   that names its load tightens it: the multiplier at that point is the bolt's force, in units
+   of the load's forces: 1 if these are those of the preload. A point that names it again
+   tightens it again, also to the same force. In the other pieces nobody turns the nut, and the
+   force follows from the joint. If the history does not know which loads its points name
+    (LoadHistory::stated), a bolt is tightened where its multiplier changes. */
 struct Bolt
 {
    std::string load;     ///< of forces on its two ends that are each other's opposite
@@ -49,13 +51,15 @@ public:
    Eigen::Index load(std::size_t bolt) const;
    /// Forces of the bolts in a state of problem(), in units of their loads' forces.
    Eigen::VectorXd forces(const ContactState &state) const;
+   /// Is this bolt tightened in this piece of the history?
+   bool tightens(std::size_t bolt, const LoadHistory &history, const LoadPiece &piece) const;
 
    /** Like march(), for a history in which multipliers of bolts are forces, from a state of
        problem(). The march ends when a bolt would push: its status is `stopped`, and the state
        and `event_time` are those at which the bolt's force is zero.
 
        InputError if a bolt is never tightened, is loosened at the end, is tightened to a
-       negative force or within the cycle. */
+       negative force or within the cycle, or named there. */
    MarchReport march(const LoadHistory &history, ContactState &state,
                      const MarchSettings &settings = {},
                      const MarchObserver &observer = {}) const;
@@ -63,7 +67,8 @@ public:
 private:
    struct Part;
    int last_tightening(const LoadHistory &history) const;
-   Part part(const LoadPiece &piece, const ContactState &state) const;
+   Part part(const LoadHistory &history, const LoadPiece &piece,
+             const ContactState &state) const;
    Eigen::VectorXd approaches(const ReducedProblem &problem, const ContactState &state) const;
    MarchReport march(const Part &part, ContactState &state, const MarchSettings &settings,
                      const MarchObserver &observer) const;

@@ -131,6 +131,12 @@ void save(const ReducedProblem &problem, const std::string &file)
                                {"displacement", pattern.control == Control::displacement},
                                {"q", to_json(pattern.q)},
                                {"p", to_json(pattern.p)}});
+      const LoadSize &size = pattern.size;
+      if (size.kind.empty()) { continue; }
+      j["patterns"].back()["size"] = {{"kind", writable("kind of load", size.kind)},
+                                      {"value", size.value},
+                                      {"direction", size.direction},
+                                      {"place", writable("place", size.place)}};
    }
    if (!problem.laws.empty())
    {
@@ -178,6 +184,12 @@ void require_known_keys(const nlohmann::json &j, const std::vector<std::string> 
 
 } // namespace
 
+static LoadSize size_from_json(const nlohmann::json &j)
+{
+   require_known_keys(j, {"kind", "value", "direction", "place"}, "the size of a load");
+   return {j.at("kind"), j.at("value"), j.at("direction"), j.at("place")};
+}
+
 ReducedProblem load_reduced_problem(const std::string &file)
 {
    ReducedProblem problem;
@@ -211,12 +223,13 @@ ReducedProblem load_reduced_problem(const std::string &file)
       from_json(j.at("dofs"), problem.dofs);
       for (const nlohmann::json &p : j.value("patterns", nlohmann::json::array()))
       {
-         require_known_keys(p, {"name", "displacement", "q", "p"}, "a load pattern");
+         require_known_keys(p, {"name", "displacement", "q", "p", "size"}, "a load pattern");
          LoadPattern pattern;
          pattern.name = p.at("name");
          pattern.control = p.at("displacement") ? Control::displacement : Control::force;
          from_json(p.at("q"), pattern.q);
          from_json(p.at("p"), pattern.p);
+         if (p.contains("size")) { pattern.size = size_from_json(p["size"]); }
          problem.patterns.push_back(pattern);
       }
       for (const nlohmann::json &law : with_laws ? j.at("laws") : nlohmann::json::array())

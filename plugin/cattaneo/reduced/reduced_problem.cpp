@@ -302,6 +302,12 @@ void ReducedProblem::validate() const
               "reduced problem: two load patterns are named '", pattern.name, "'");
       check_vector(("q of pattern '" + pattern.name + "'").c_str(), pattern.q, m);
       check_vector(("p of pattern '" + pattern.name + "'").c_str(), pattern.p, n);
+      const LoadSize &size = pattern.size;
+      require(size.value > 0 && std::isfinite(size.value),
+              "reduced problem: the size of load '", pattern.name, "' is ", size.value,
+              ", must be positive and finite");
+      require(std::isfinite(size.direction[0]) && std::isfinite(size.direction[1]),
+              "reduced problem: the direction of load '", pattern.name, "' must be finite");
    }
    check_vector("gap", gap, n);
    check_vector("friction", friction, n);
