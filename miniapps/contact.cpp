@@ -18,6 +18,7 @@
 #include "common/own_history.hpp"
 #include "contact/example_case.hpp"
 #include "contact/joint_report.hpp"
+#include "contact/load_sizes.hpp"
 #include "contact/named_points.hpp"
 #include "contact/own_bodies.hpp"
 #include "contact/own_warnings.hpp"
@@ -175,6 +176,8 @@ void contact(Study &study)
            " is per thickness, it goes without the key 'thickness'");
    require(options.edges.empty() || (problem.nodes() > 0 && problem.friction.maxCoeff() > 0),
            edges, " needs friction, because without it nothing sticks");
+   set_load_sizes(own, joint);
+   report_load_sizes(study, problem);
    history.about_axis = joint.formulation != Formulation::plane;
    history.bolts = own.bolted ? &*own.bolted : nullptr;
    history.go_with = joint.go_with;

@@ -1,5 +1,6 @@
 #include "common/film.hpp"
 
+#include "common/load_axes.hpp"
 #include "common/text.hpp"
 
 #include <algorithm>
@@ -42,15 +43,20 @@ VectorXd shear(const ReducedProblem &problem, const ContactState &state)
 
 } // namespace
 
-Film::Film(const std::string &name, const ReducedProblem &problem)
+Film::Film(const std::string &name, const ReducedProblem &problem, const Units &units)
    : most_(std::clamp<std::size_t>(400000 / (2 * problem.nodes() + 1), 40, 600))
 {
    ordered_json loads = ordered_json::array(), breaks = ordered_json::array();
    for (const LoadPattern &pattern : problem.patterns)
    {
       const bool force = pattern.control == Control::force;
+      const LoadAxes axes = load_axes(pattern, units, problem.knows_loads());
+      const bool known = !pattern.size.kind.empty();
       loads.push_back({{"name", pattern.name},
                        {"force", force},
+                       {"size", known ? ordered_json(axes.size) : ordered_json()},
+                       {"force_label", axes.force},
+                       {"displacement_label", axes.displacement},
                        {"word", std::string(problem.knows_loads() ? "" : "contact ") +
                                    (force ? "displacement" : "reaction")}});
    }

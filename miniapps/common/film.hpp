@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/units.hpp"
+
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <nlohmann/json.hpp>
@@ -14,7 +16,7 @@ namespace miniapp
 class Film
 {
 public:
-   Film(const std::string &name, const cattaneo::ReducedProblem &problem);
+   Film(const std::string &name, const cattaneo::ReducedProblem &problem, const Units &units);
    /// To be called with every accepted increment of that problem.
    void add(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state,
             const cattaneo::IncrementRecord &record);

@@ -1,5 +1,6 @@
 #include "common/run.hpp"
 
+#include "common/load_axes.hpp"
 #include "common/watch.hpp"
 
 #include <algorithm>
@@ -273,7 +274,10 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
    {
       const std::string &load = problem.patterns[k].name;
       columns.push_back({"work " + load});
-      columns.push_back({"stiffness " + load, "stiffness " + load, "%.4e"});
+      columns.push_back(
+         {"stiffness " + load,
+          "stiffness " + load + load_axes(problem.patterns[k], study.units).stiffness_unit,
+          "%.4e"});
       columns.push_back({"loss_factor " + load, "loss factor " + load, "%.4f"});
    }
    ResultTable &cycles = study.table("cycles", columns);
@@ -311,7 +315,8 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
       {
          const LoopFigures of = figures(problem, report, cycle, k);
          if (!of.moves) { still.insert(problem.patterns[k].name); }
-         row.insert(row.end(), {of.work / unit, of.stiffness, of.loss_factor});
+         const LoadAxes axes = load_axes(problem.patterns[k], study.units);
+         row.insert(row.end(), {of.work / unit, axes.stiffness(of.stiffness), of.loss_factor});
       }
       cycles.quiet(!shown());
       study.row(cycles, row);
@@ -329,33 +334,107 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
          " does no work in a cycle, because what it acts on does not move: it has no loop");
    }
    report_steady(study, report);
-   add_loops(study.lines("loops", "Loads over their displacements", "displacement", "force"),
-             problem, report);
+   add_loops(study, problem, report);
    return cycles;
+}
+
+namespace
+{
+
+/// Force over displacement of a load in the cycles of a march; empty if it did not vary.
+struct LoopCurve
+{
+   std::vector<double> displacement, force;
+};
+
+LoopCurve loop_curve(const ReducedProblem &problem, const MarchReport &report, std::size_t load)
+{
+   const auto k = static_cast<Eigen::Index>(load);
+   const LoadAxes axes = load_axes(problem.patterns[load], {});
+   LoopCurve made;
+   double least = 0, most = 0; // of its multiplier
+   for (const IncrementRecord &record : report.increments)
+   {
+      // The last state before the cycles is where they begin.
+      if (record.cycle == 0) { made = {}; }
+      const double multiplier = record.multipliers[k], conjugate = record.conjugates[k];
+      least = made.force.empty() ? multiplier : std::min(least, multiplier);
+      most = made.force.empty() ? multiplier : std::max(most, multiplier);
+      made.displacement.push_back(axes.displacement_of(multiplier, conjugate));
+      made.force.push_back(axes.force_of(multiplier, conjugate));
+   }
+   return least == most ? LoopCurve() : made;
+}
+
+/// Does a load move what it acts on in the last cycle that is known? Otherwise its loop is
+/// round-off.
+bool moves(const ReducedProblem &problem, const MarchReport &report, std::size_t load)
+{
+   for (auto cycle = report.cycles.rbegin(); cycle != report.cycles.rend(); ++cycle)
+   {
+      if (cycle->whole) { return figures(problem, report, *cycle, load).moves; }
+   }
+   return true;
+}
+
+/// A label for all curves: their own if it is the same, otherwise a word for all.
+std::string label_of_all(const std::vector<std::string> &labels, const std::string &otherwise)
+{
+   const bool same = std::all_of(labels.begin(), labels.end(),
+                                 [&](const std::string &one) { return one == labels[0]; });
+   return !labels.empty() && same ? labels[0] : otherwise;
+}
+
+} // namespace
+
+void add_loops(Study &study, const ReducedProblem &problem, const MarchReport &report)
+{
+   std::vector<std::pair<std::string, LoopCurve>> curves;
+   std::vector<LoadAxes> axes;
+   std::vector<std::string> x, y;
+   bool known = false, straight = true; // forces over displacements, no moments
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      LoopCurve curve = loop_curve(problem, report, k);
+      if (curve.force.empty() || !moves(problem, report, k)) { continue; }
+      curves.emplace_back(pattern.name, std::move(curve));
+      axes.push_back(load_axes(pattern, study.units, problem.knows_loads()));
+      x.push_back(axes.back().displacement);
+      y.push_back(axes.back().force);
+      known = known || !pattern.size.kind.empty();
+      straight =
+         straight && (pattern.size.kind == "force" || pattern.size.kind == "opposite forces" ||
+                      pattern.size.kind == "displacement" || pattern.size.kind == "bolt");
+   }
+   // Loads of a study without sizes have the words that they always had.
+   Panel &panel = study.lines(
+      "loops",
+      known ? "Force over displacement of each load" : "Loads over their displacements",
+      !known ? "displacement"
+             : label_of_all(x, straight ? "displacement" + study.units.of(0, 1)
+                                        : "displacement or rotation"),
+      !known ? "force"
+             : label_of_all(y, straight ? "force" + study.units.total(0) : "force or moment"));
+   for (std::size_t k = 0; k < curves.size(); ++k)
+   {
+      const auto &[name, curve] = curves[k];
+      if (known)
+      {
+         panel.say("label x", name + "=" + x[k]);
+         panel.say("label y", name + "=" + y[k]);
+      }
+      panel.add(name, curve.displacement, curve.force);
+   }
 }
 
 void add_loops(Panel &panel, const ReducedProblem &problem, const MarchReport &report,
                const std::string &words)
 {
-   for (int k = 0; k < static_cast<int>(problem.patterns.size()); ++k)
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
-      const LoadPattern &pattern = problem.patterns[k];
-      std::vector<double> multipliers, conjugates;
-      for (const IncrementRecord &record : report.increments)
-      {
-         if (record.cycle == 0) // the last of them is where the cycles begin
-         {
-            multipliers.clear();
-            conjugates.clear();
-         }
-         multipliers.push_back(record.multipliers[k]);
-         conjugates.push_back(record.conjugates[k]);
-      }
-      const auto [least, most] = std::minmax_element(multipliers.begin(), multipliers.end());
-      if (multipliers.empty() || *least == *most) { continue; }
-      const bool force = pattern.control == Control::force;
-      panel.add(pattern.name + words, force ? conjugates : multipliers,
-                force ? multipliers : conjugates);
+      const LoopCurve curve = loop_curve(problem, report, k);
+      panel.add(problem.patterns[k].name + words, curve.displacement, curve.force);
    }
 }
 

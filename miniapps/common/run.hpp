@@ -120,8 +120,12 @@ double external_work(const cattaneo::ReducedProblem &problem,
 const ResultTable &report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
                                  const cattaneo::MarchReport &report, double unit = 1);
 
-/// Force over displacement in the cycles of a march, of each load that varied in them; a curve
-/// has the load's name and these words.
+/// Force over displacement in the cycles of a march, of each load that varied in them and moved
+/// what it acts on, in physical units where the size of the load is known: the panel `loops`.
+void add_loops(Study &study, const cattaneo::ReducedProblem &problem,
+               const cattaneo::MarchReport &report);
+/// The same of each load that varied, in a panel that is there. A curve has the load's name and
+/// these words.
 void add_loops(Panel &panel, const cattaneo::ReducedProblem &problem,
                const cattaneo::MarchReport &report, const std::string &words = "");
 

@@ -255,7 +255,7 @@ Film *Study::film(const cattaneo::ReducedProblem &problem)
       ++more_films_;
       return nullptr;
    }
-   return &films_.emplace_back(std::to_string(films_.size() + 1), problem);
+   return &films_.emplace_back(std::to_string(films_.size() + 1), problem, units);
 }
 
 void Study::compare(const std::string &name, double exact, Allowed allowed, double computed)

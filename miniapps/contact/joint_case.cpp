@@ -455,9 +455,10 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    {
       require(sides.size() == 1, key.called(),
               ": only the rigid obstacle of an interface with one side can have a guide");
-      require(!key.has("motion"), key.called(),
-              " has a guide and a motion, must have one of them: a guide has all motions of the "
-              "obstacle");
+      require(
+         !key.has("motion"), key.called(),
+         " has a guide and a motion, must have one of them: a guide has all motions of the "
+         "obstacle");
       const Key guide = key["guide"];
       guide.must_be_of({"x", "y", "rotation", "centre"});
       made.guide = guide_of(guide);

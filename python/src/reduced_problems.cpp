@@ -195,6 +195,27 @@ void bind_reduced_problems(nb::module_ &m)
                    { return self.control == Control::force ? "force" : "displacement"; })
       .def_prop_ro("q", viewed(&LoadPattern::q), "tangential, size c n")
       .def_prop_ro("p", viewed(&LoadPattern::p), "normal, compression positive, size n")
+      .def_prop_ro(
+         "size",
+         [](const LoadPattern &self) -> nb::object
+         {
+            const LoadSize &size = self.size;
+            if (size.kind.empty()) { return nb::none(); }
+            nb::dict made;
+            made["kind"] = size.kind;
+            made["value"] = size.value;
+            made["direction"] = nb::make_tuple(size.direction[0], size.direction[1]);
+            made["place"] = size.place;
+            return std::move(made);
+         },
+         nb::sig("def size(self) -> dict[str, object] | None"),
+         "How large the load is at multiplier 1, for results in physical units; None: not "
+         "known.\n\n"
+         "kind: 'force', 'moment', 'displacement', 'bolt', …, as the results of contact have "
+         "it. value: above 0; a load of forces at multiplier m is m · value, and its "
+         "displacement is conjugate / value; a prescribed displacement is m · value, and its "
+         "reaction is conjugate / value. direction: a unit vector, (0, 0) without one. place: "
+         "what is loaded.")
       .def("__repr__",
            [](const LoadPattern &self)
            {

@@ -786,3 +786,51 @@ def test_loads_of_one_name_on_bodies_and_obstacles(run):
     near_all(run.columns("out_nodes.csv")["slip"], 0, 1e-12)
     near_all(run.columns("out_nodes.csv")["q"], 0, 1e-9)
     near(run.columns("out_history.csv")["reaction D"][-1], 0, 1e-9)
+
+
+def test_loads_have_sizes(run):
+    """Kinds, sizes and directions by hand; loops are force over displacement whatever a multiplier of 1 is said to be."""
+    case = columns_case(run)
+    del case["bolts"]
+    case.update(units={"length": "mm", "force": "N"}, thickness=4, **{"cycle-start": 1, "cycles": 1})
+    def sized(load, history, **more):
+        got = run.case({**changed(case, {"bodies.high.load": [load]}), "history": history, **more})
+        row = got["load_sizes"][0]
+        panel = [one for one in got["shown"]["panels"] if one["name"] == "loops"]
+        return got, row, panel[0] if panel else None
+    # A column on a column: 4 deep, so four times as stiff.
+    for load, history, size in (("F traction 3 0 -1", ["F=0", "F=10", "F=20", "F=10"], 4), ("F traction 3 0 -5", ["F=0", "F=2", "F=4", "F=2"], 20),
+                                ("F pressure 3 1", ["F=0", "F=10", "F=20", "F=10"], 4)):
+        got, row, panel = sized(load, history)
+        assert (row["load"], row["kind"], row["displacement of"]) == ("F", "force", "high:3")
+        near(row["size"], size, 1e-9 * size)
+        alike(row["direction"], [0, -1], 1e-9)
+        near(got["cycles"][0]["stiffness F"], 4 / COMPLIANCE, 1e-9 * 4 / COMPLIANCE)
+        assert (panel["x"], panel["y"]) == ("displacement of high:3 along -y [mm]", "force F [N]")
+        alike([max(panel["parts"][0]["y"]), min(panel["parts"][0]["y"])], [80, 40], 1e-7)
+        alike([max(panel["parts"][0]["x"]), min(panel["parts"][0]["x"])], [20 * COMPLIANCE, 10 * COMPLIANCE], 1e-9)
+    got, row, panel = sized("D displacement-y 3 -0.5", ["D=0", "D=0.1", "D=0.2", "D=0.1"])
+    assert (row["kind"], row["size"], row["direction"]) == ("displacement", 0.5, [0, -1])
+    near(got["cycles"][0]["stiffness D"], 4 / COMPLIANCE, 1e-9 * 4 / COMPLIANCE)
+    assert (panel["x"], panel["y"]) == ("displacement D of high:3 along -y [mm]", "reaction D [N]")
+    near(max(panel["parts"][0]["y"]), 0.1 * 4 / COMPLIANCE, 1e-6)
+    # Without a resultant: both sides of a column, heat, and what a function says.
+    for load, kind, size in (("S traction 2 3 0; S traction 4 -3 0", "opposite forces", 3 * 3 * 4), ("H temperature 50", "temperature", 50), ("E initial-strain 1e-3", "strain", 1e-3),
+                             ("D displacement-y 3 -0.1*(1+0*x)", "load factor", 1), ("W traction 3 0 x-0.5", "moment", 4 / 12)):
+        name = load.split()[0]
+        held = changed(case, {"bodies.high.load": ["P pressure 3 1", *load.split("; ")], "bodies.high.expansion": 1e-5, "bodies.high.support": "@0,3:x", "cycle-start": None, "cycles": None})
+        got = run.case({**held, "history": ["P=0", "P=1", f"{name}=1e-3", f"{name}=0"]})
+        row = [row for row in got["load_sizes"] if row["load"] == name][0]
+        assert row["kind"] == kind, row
+        near(row["size"], size, 1e-9 * size)
+    # A bolt, a guide and an obstacle; the file of the reduced problem has them too.
+    bolted = {**columns_case(run), "history": ["F=0", "bolt=1", "F=1"]}
+    got = run.case(bolted, "--save", run.folder / "reduced.json")
+    rows = {row["load"]: row for row in got["load_sizes"]}
+    assert (rows["bolt"]["kind"], rows["bolt"]["size"]) == ("bolt", 40)
+    saved = {one["name"]: one["size"] for one in json.loads((run.folder / "reduced.json").read_text())["patterns"]}
+    assert saved["bolt"]["kind"] == "bolt" and saved["F"]["direction"] == [0, 1]
+    rolled = {**indenter(run, x={"displacement": "X", "value": 0.25}, y={"force": "P", "value": -20}, rotation={"moment": "M", "value": 10}), "history": ["P=0", "P=1", "M=0.1"]}
+    rows = {row["load"]: row for row in run.case(rolled)["load_sizes"]}
+    assert [(rows[name]["kind"], rows[name]["size"], rows[name]["direction"]) for name in "PMX"] == [
+        ("force", 20, [0, -1]), ("moment", 10, None), ("displacement", 0.25, [1, 0])]

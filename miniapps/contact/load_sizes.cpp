@@ -1,0 +1,367 @@
+#include "contact/load_sizes.hpp"
+
+#include "common/load_axes.hpp"
+
+#include <cattaneo/words.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Vector2d;
+using nlohmann::ordered_json;
+
+namespace
+{
+
+/// What one body, guide, obstacle or bolt has of a load.
+struct Share
+{
+   std::string kind;     ///< as LoadSize has it, "forces" of what acts on a body's nodes
+   Vector2d along{0, 0}; ///< the resultant, or the displacement
+   double moment = 0;    ///< about the origin; an angle; of a scalar kind its value
+   double size = 0;      ///< sum of the forces, to tell round-off from a resultant
+   double lever = 0;     ///< the same of the moment
+   std::string place;    ///< what is loaded
+   bool known = true;    ///< false: a function stands where a number is needed
+   int statements = 1;   ///< of which it is made
+   double pressure = 0;  ///< of a single statement of a pressure
+};
+
+/// A word that is a plain number; otherwise nothing is known of it.
+std::optional<double> plain_number(const std::string &word)
+{
+   char *end = nullptr;
+   const double value = std::strtod(word.c_str(), &end);
+   if (word.empty() || *end != 0 || !std::isfinite(value)) { return std::nullopt; }
+   return value;
+}
+
+/// Shares by the names of loads.
+class Shares
+{
+public:
+   explicit Shares(const JointCase &joint) : joint_(joint) {}
+
+   void add(const std::string &load, Share share) { all_[load].push_back(std::move(share)); }
+
+   /// What the statements of a body say, other than forces: displacements, turns, strains.
+   void add_statements(const JointCase::Body &body)
+   {
+      for (const std::string &statement : split(body.load, ";\n"))
+      {
+         const std::vector<std::string> words = split(statement, " \t");
+         if (words.size() < 3) { continue; }
+         const std::string &load = words[0], &kind = words[1];
+         const bool moves = kind.rfind("displacement-", 0) == 0;
+         const std::size_t last = words.size() - 1;
+         const std::optional<double> value = plain_number(words[last]);
+         Share made;
+         made.known = value.has_value();
+         made.place = body.name + ":" + words[2];
+         if (moves)
+         {
+            made.kind = "displacement";
+            const bool first = kind.back() == 'x' || kind.back() == 'r';
+            made.along[first ? 0 : 1] = value.value_or(0);
+         }
+         else if (kind == "twist") { made.kind = "rotation"; }
+         else if (kind == "temperature" || (kind == "initial-strain" && last == 2))
+         {
+            made.kind = kind == "temperature" ? kind : "strain";
+            made.place = body.name;
+         }
+         else if (kind == "initial-strain")
+         {
+            made.known = false;
+            made.kind = "strain";
+         }
+         else { continue; } // forces on nodes
+         if (!moves) { made.moment = value.value_or(0); }
+         add(load, made);
+      }
+      for (const BulkStress &one : body.bulk)
+      {
+         Share made;
+         made.kind = "stress";
+         made.moment = one.stress;
+         made.place = body.name;
+         add(one.pattern, made);
+      }
+   }
+
+   /// Forces and torques on the nodes of a body.
+   void add_forces(const JointCase::Body &body, const HeldBody &held, double thickness)
+   {
+      const bool plane = joint_.formulation == Formulation::plane;
+      for (const BodyLoad &load : held.loads)
+      {
+         Share made;
+         if (load.control != Control::force || !describe(body, load.name, made)) { continue; }
+         for (Index dof = 0; dof < load.values.size(); ++dof)
+         {
+            // About an axis radial forces cancel.
+            if (!plane && held.component[dof] == 0) { continue; }
+            const double force = thickness * load.values[dof];
+            const Vector2d &at = held.place[dof];
+            made.along[held.component[dof]] += force;
+            if (plane)
+            {
+               const double arm = held.component[dof] == 0 ? -at[1] : at[0];
+               made.moment += arm * force;
+               made.lever += std::abs(arm * force);
+            }
+            made.size += std::abs(force);
+         }
+         add(load.name, made);
+      }
+      for (const BodyLoad &load : held.around.loads)
+      {
+         if (load.control != Control::force) { continue; }
+         Share made;
+         if (!describe(body, load.name, made)) { continue; }
+         made.kind = "torque";
+         made.moment = load.values.sum();
+         made.lever = load.values.lpNorm<1>();
+         add(load.name, made);
+      }
+   }
+
+   /// One way of a rigid block, a guide or an obstacle. @param way 0: x, 1: y, 2: about
+   void add_way(const Guide::Along &along, int way, const std::string &place)
+   {
+      if (along.load.empty()) { return; }
+      Share made;
+      made.place = place;
+      const bool force = along.motion == Guide::Motion::force;
+      if (way == 2)
+      {
+         made.kind = force ? "moment" : "rotation";
+         made.moment = along.value;
+         made.lever = std::abs(along.value);
+      }
+      else
+      {
+         made.kind = force ? "forces" : "displacement";
+         made.along[way] = along.value;
+         made.size = std::abs(along.value);
+      }
+      add(along.load, made);
+   }
+
+   void add_guide(const Guide &guide, const std::string &place)
+   {
+      add_way(guide.x, 0, place);
+      add_way(guide.y, 1, place);
+      add_way(guide.rotation, 2, place);
+   }
+
+   /// The size of a load; empty where none is known.
+   LoadSize of(const std::string &load) const
+   {
+      const auto found = all_.find(load);
+      if (found == all_.end()) { return {}; }
+      const std::vector<Share> &shares = found->second;
+      LoadSize made;
+      std::vector<std::string> places;
+      for (const Share &one : shares)
+      {
+         if (!one.known) { return {}; }
+         if (std::find(places.begin(), places.end(), one.place) == places.end())
+         {
+            places.push_back(one.place);
+         }
+      }
+      made.place = listed(places);
+      const std::string &kind = shares[0].kind;
+      if (kind == "forces" || kind == "moment" || kind == "torque")
+      {
+         add_resultant(shares, made);
+      }
+      else if (kind == "displacement") { add_displacement(shares, made); }
+      else if (std::all_of(shares.begin(), shares.end(),
+                           [&](const Share &one)
+                           { return one.kind == kind && one.moment == shares[0].moment; }))
+      {
+         made.kind = kind;
+         made.value = std::abs(shares[0].moment);
+      }
+      const bool usable = !made.kind.empty() && made.value > 0 && std::isfinite(made.value);
+      return usable ? made : LoadSize();
+   }
+
+private:
+   /// Which parts of a body a load of forces acts on; false if it has no statement of forces
+   /// there.
+   bool describe(const JointCase::Body &body, const std::string &load, Share &made) const
+   {
+      made.kind = "forces";
+      made.place = body.name;
+      made.statements = 0;
+      std::vector<std::string> parts;
+      for (const std::string &statement : split(body.load, ";\n"))
+      {
+         const std::vector<std::string> words = split(statement, " \t");
+         if (words.size() < 3 || words[0] != load) { continue; }
+         const std::string &kind = words[1];
+         if (kind == "temperature" || kind == "initial-strain") { return false; }
+         ++made.statements;
+         if (kind == "body-force") { continue; }
+         if (std::find(parts.begin(), parts.end(), words[2]) == parts.end())
+         {
+            parts.push_back(words[2]);
+         }
+         if (kind == "pressure") { made.pressure = plain_number(words[3]).value_or(0); }
+      }
+      if (!parts.empty()) { made.place += ":" + listed(parts, ","); }
+      // A card of a deck has no statement; a bolt and a guide are told apart elsewhere.
+      return made.statements > 0 || load.rfind("CLOAD", 0) == 0;
+   }
+
+   void add_resultant(const std::vector<Share> &shares, LoadSize &made) const
+   {
+      constexpr double none_of_it = 1e-9; // meshes have fewer digits than forces
+      Vector2d sum(0, 0);
+      double moment = 0, size = 0, lever = 0, apart = 0;
+      int pushed = 0;
+      bool torque = true;
+      for (const Share &one : shares)
+      {
+         const bool forces = one.kind == "forces";
+         if (!forces && one.kind != "moment" && one.kind != "torque") { return; }
+         torque = torque && one.kind == "torque";
+         sum += one.along;
+         moment += one.moment;
+         size += one.size;
+         lever += one.lever;
+         if (one.along.norm() > none_of_it * one.size)
+         {
+            apart += 0.5 * one.along.norm();
+            ++pushed;
+         }
+      }
+      if (sum.norm() > none_of_it * size)
+      {
+         made.kind = "force";
+         made.value = sum.norm();
+         for (double &x : sum) { x = settled(x, 1e3 * made.value); }
+         made.direction = {sum[0] / made.value, sum[1] / made.value};
+      }
+      else if (pushed > 1)
+      {
+         made.kind = "opposite forces";
+         made.value = apart;
+      }
+      else if (std::abs(moment) > none_of_it * lever)
+      {
+         made.kind = torque ? "torque" : "moment";
+         made.value = std::abs(moment);
+      }
+      else if (shares.size() == 1 && shares[0].statements > 1)
+      {
+         made.kind = "opposite forces";
+         made.value = 0.5 * shares[0].size;
+      }
+      else if (shares.size() == 1 && shares[0].pressure != 0)
+      {
+         made.kind = "pressure";
+         made.value = std::abs(shares[0].pressure);
+      }
+   }
+
+   /// Components of one part add up; all parts must move alike.
+   void add_displacement(const std::vector<Share> &shares, LoadSize &made) const
+   {
+      std::map<std::string, Vector2d> parts;
+      for (const Share &one : shares)
+      {
+         if (one.kind != "displacement") { return; }
+         Vector2d &its = parts.try_emplace(one.place, Vector2d(0, 0)).first->second;
+         for (const int c : {0, 1})
+         {
+            if (one.along[c] != 0) { its[c] = one.along[c]; }
+         }
+      }
+      const Vector2d first = parts.begin()->second;
+      for (const auto &part : parts)
+      {
+         if (part.second != first) { return; }
+      }
+      made.kind = "displacement";
+      made.value = first.norm();
+      made.direction = {first[0] / made.value, first[1] / made.value};
+   }
+
+   const JointCase &joint_;
+   std::map<std::string, std::vector<Share>> all_;
+};
+
+} // namespace
+
+void set_load_sizes(OwnBodies &own, const JointCase &joint)
+{
+   Shares shares(joint);
+   std::map<std::string, LoadSize> bolts;
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      bolts[bolt.name] = {"bolt", bolt.force, {0, 0}, bolt.name};
+   }
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
+   {
+      const JointCase::Body &body = joint.bodies[b];
+      shares.add_statements(body);
+      for (const JointCase::Body::Guided &each : body.guides)
+      {
+         shares.add_guide(each.guide, body.name + ":" + each.on);
+      }
+      shares.add_forces(body, own.held[b], joint.thickness_of(static_cast<int>(b)));
+   }
+   for (const JointCase::Face &face : joint.faces)
+   {
+      if (face.guide) { shares.add_guide(*face.guide, "the obstacle of " + face.name); }
+      for (const JointCase::Motion &one : face.motions)
+      {
+         Share made;
+         made.place = "the obstacle of " + face.name;
+         made.known = one.angle == 0 || one.along.norm() == 0;
+         made.kind = one.angle == 0 ? "displacement" : "rotation";
+         made.along = one.along;
+         made.moment = one.angle;
+         shares.add(one.load, made);
+      }
+   }
+   for (LoadPattern &pattern : own.scene.problem().patterns)
+   {
+      const auto bolt = bolts.find(pattern.name);
+      pattern.size = bolt != bolts.end() ? bolt->second : shares.of(pattern.name);
+   }
+}
+
+void report_load_sizes(Study &study, const ReducedProblem &problem)
+{
+   ordered_json &all = study.results["load_sizes"] = ordered_json::array();
+   for (const LoadPattern &pattern : problem.patterns)
+   {
+      const LoadSize &size = pattern.size;
+      const LoadAxes axes = load_axes(pattern, study.units, problem.knows_loads());
+      const bool known = !size.kind.empty();
+      const bool directed = size.direction[0] != 0 || size.direction[1] != 0;
+      all.push_back({{"load", pattern.name},
+                     {"kind", known ? size.kind : "load factor"},
+                     {"size", size.value},
+                     {"direction", directed ? ordered_json(size.direction) : ordered_json()},
+                     {"displacement of", size.place},
+                     {"force", axes.force},
+                     {"displacement", axes.displacement}});
+      if (!study.verbose() || !known) { continue; }
+      study.say(text("   load %s = 1: %s %.6g%s%s%s", pattern.name.c_str(), size.kind.c_str(),
+                     size.value, axes.unit.c_str(), size.place.empty() ? "" : " of ",
+                     size.place.c_str()));
+   }
+}
+
+} // namespace miniapp
