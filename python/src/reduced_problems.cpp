@@ -211,11 +211,12 @@ void bind_reduced_problems(nb::module_ &m)
          nb::sig("def size(self) -> dict[str, object] | None"),
          "How large the load is at multiplier 1, for results in physical units; None: not "
          "known.\n\n"
-         "kind: 'force', 'moment', 'displacement', 'bolt', …, as the results of contact have "
-         "it. value: above 0; a load of forces at multiplier m is m · value, and its "
-         "displacement is conjugate / value; a prescribed displacement is m · value, and its "
-         "reaction is conjugate / value. direction: a unit vector, (0, 0) without one. place: "
-         "what is loaded.")
+         "The entry 'kind' is 'force', 'moment', 'displacement', 'bolt' or another kind of the "
+         "program contact. The entry 'value' is positive. A load of forces at multiplier m has "
+         "the size m · value, and its displacement is conjugate / value. A prescribed "
+         "displacement has the size m · value, and its reaction is conjugate / value. The entry "
+         "'direction' is a unit vector, or (0, 0) if the load has none. The entry 'place' names "
+         "the loaded part.")
       .def("__repr__",
            [](const LoadPattern &self)
            {
