@@ -48,9 +48,9 @@ struct Counters
       visit("limit_solves", self.limit_solves);
    }
 
-   /// Adds up, but for tangential_unknowns, of which the larger one stays.
+   /// Adds all counts. Of tangential_unknowns the larger one is kept.
    Counters &operator+=(const Counters &other) { return add(other, 1); }
-   /// What was done since: of two readings of one count.
+   /// The difference of two readings: the work done between them.
    Counters &operator-=(const Counters &other) { return add(other, -1); }
 
 private:

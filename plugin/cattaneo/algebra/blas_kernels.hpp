@@ -6,19 +6,20 @@ namespace cattaneo
 {
 
 /** The kernels of OpenBLAS that work in this process. OpenBLAS chooses them when the process
-    starts, by the name of the processor; one that its version does not know yet may get those
-    of a processor twenty years old. The environment variable OPENBLAS_CORETYPE, set before the
-    process starts, chooses others. */
+    starts, by the name of the processor. A processor that this version of OpenBLAS does not
+    know may get kernels that are twenty years old. The environment variable OPENBLAS_CORETYPE,
+    set before the process starts, chooses others. */
 struct BlasKernels
 {
-   std::string name;   ///< OpenBLAS's own, as "Haswell"; empty with another BLAS or with none
-   std::string better; ///< name of safe ones that are far faster on this processor; empty: none
+   std::string name; ///< OpenBLAS's own, as "Haswell"; empty with another BLAS or with none
+   std::string
+      better; ///< name of safe kernels that are far faster on this processor; empty: none
 
-   /// One sentence with the name. If others are far faster it tells what to do.
+   /// One sentence with the name of the kernels. If others are far faster, it says what to do.
    std::string statement() const;
 };
 
-/// Those of this process.
+/// The kernels of this process.
 BlasKernels blas_kernels();
 
 /// Kernels that are far faster than the named ones, on a processor with or without AVX2 and

@@ -13,7 +13,8 @@ using SparseView = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>
 /// Has the row an entry other than zero beside the one in column `own`?
 bool couples(const SparseView &K, int row, int own);
 
-/// A square sparse matrix by rows, of any program, that is kept alive but not copied.
+/// A square sparse matrix by rows that another program may own. It is kept alive but not
+/// copied.
 class SharedMatrix
 {
 public:
@@ -27,7 +28,7 @@ public:
 
    /// Number of rows.
    int size() const { return size_; }
-   /// Without a copy; valid as long as this or a copy of it lives.
+   /// A view without a copy of the entries; valid as long as this object or a copy of it lives.
    SparseView view() const
    {
       return {size_, size_, start_ ? start_[size_] : 0, start_, column_, value_};

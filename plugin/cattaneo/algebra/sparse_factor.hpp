@@ -14,12 +14,12 @@ namespace cattaneo
 class NotPositiveDefinite : public InputError
 {
 public:
-   /// Found out at a row of the whole matrix.
+   /// The failure was found at a row of the whole matrix.
    NotPositiveDefinite(int row_of_K, const std::string &message)
       : InputError(message), row(row_of_K)
    {
    }
-   int row; ///< row of the whole matrix at which it was found out
+   int row; ///< row of the whole matrix at which it was found
 };
 
 /** A sparse Cholesky factor of a symmetric positive definite matrix whose last rows (the
@@ -29,9 +29,9 @@ public:
        [K11 K12]   [L11    ] [L11ᵀ L21ᵀ]
        [K21 K22] = [L21 L22] [     L22ᵀ],   K22 - K21 K11⁻¹ K12 = L22 L22ᵀ.
 
-    The one place that knows CHOLMOD; without it (CATTANEO_USE_CHOLMOD=OFF, or Backend::eigen)
-    Eigen does the same, slower, with permissive licences only. Not safe for use by several
-    threads at once. */
+    Only this class uses CHOLMOD; without it (CATTANEO_USE_CHOLMOD=OFF, or Backend::eigen) Eigen
+    does the same, slower, with permissive licences only. Not safe for use by several threads at
+    once. */
 class SparseFactor
 {
 public:
@@ -56,8 +56,8 @@ public:
 
    /// Schur complement of the trailing rows, in the order of `keep`, without the shift.
    Eigen::MatrixXd schur() const;
-   /// Forces on the trailing rows, in the order of `keep`, of displacements x there, one a
-   /// column: (S + shift) x.
+   /// Forces on the trailing rows, in the order of `keep`, that belong to displacements x
+   /// there, one a column: (S + shift) x.
    Eigen::MatrixXd push(const Eigen::MatrixXd &x) const;
    /// Solves with the factored (shifted) matrix, one right-hand side a column; rows in the
    /// order of `keep`.

@@ -16,13 +16,13 @@ struct BodyLoad
    Eigen::VectorXd values;           ///< force control: forces; displacement: prescribed values
 };
 
-/// A motion of fixed dofs that is free after all, of all of them together: that of a part that
-/// moves as a rigid block.
+/// A common motion of fixed dofs: a part of the body moves freely as a rigid block.
 struct BlockMotion
 {
    Eigen::VectorXd motion; ///< of all dofs, zero where they are not fixed
-   std::string load;       ///< that is the force on it, empty: none
-   double force = 0;       ///< per unit multiplier of that load, work over motion
+   std::string load;       ///< name of the load that is the force on the block, empty: none
+   double force =
+      0; ///< force on the block per unit multiplier of that load, conjugate to the motion
 };
 
 /// A body as any program assembles it: what a condensation by a factor starts from.
@@ -35,22 +35,22 @@ struct AssembledBody
    DofPlaces places; ///< of all dofs
    std::vector<BodyLoad> loads; ///< each of a name of its own
    /// True if K may resist rigid motions (elastic foundations, springs that do not connect x
-   /// with y): K is then asked which it resists, and those are free no more. False: all that
-   /// the supports leave are free, and a body is refused if contact nodes and supports together
-   /// leave one, or if eliminated() rows resist them.
+   /// with y): motions that K resists then count as supported. False: all rigid motions that
+   /// the supports leave count as free. A body is then refused if contact nodes and supports
+   /// together leave a motion free, or if eliminated() rows resist one.
    bool grounded = false;
    /// Blocks that move rigidly, linearly independent. A rigid motion is free if it is a
    /// combination of them.
    std::vector<BlockMotion> blocks = {};
 
-   /** Rows that are not fixed and have nothing but their diagonal, or nothing at all, where
-       other rows of their component have more: supports that the program which wrote K
-       eliminated. Entries below 1e-12 of the largest one beside a diagonal count as none,
-       unless the diagonal is as small. So do those that are round-off of a large diagonal. Such
-       a row is a support for all others, to round-off, whether it was eliminated or is a much
-       stiffer spring. condense() takes these rows as fixed if the body is `grounded`. Otherwise
-       it refuses them, because as springs they would not move the body. A component none of
-       whose rows is connected to another is a bed of springs, and kept. */
+   /** Rows of supports that the program which wrote K has eliminated: rows that are not fixed
+       and have only their diagonal, or no entry at all, while other rows of the same component
+       have more. Entries below 1e-12 of the largest one beside a diagonal count as none, unless
+       the diagonal is as small. So do those that are round-off of a large diagonal. Such a row
+       is a support for all others, to round-off, whether it was eliminated or is a much stiffer
+       spring. condense() takes these rows as fixed if the body is `grounded`. Otherwise it
+       refuses them, because as springs they would not move the body. If no row of a component
+       is connected to another row, the component is a bed of springs and is kept. */
    std::vector<int> eliminated() const;
    /// A warning about eliminated() rows that condense() takes as fixed. Empty if there are
    /// none.
@@ -60,8 +60,8 @@ struct AssembledBody
    /// repeated entry, or the order of the fixed dofs. Loads must be finite and have different
    /// names. They may displace only fixed dofs that are coupled to others (not those of an
    /// eliminated matrix). The stiffness must be symmetric, not one triangle. A body that is not
-   /// grounded may have no eliminated() rows. No node may be held by a diagonal alone across
-   /// the axes (a support on a slope that was eliminated), which is not looked for in space.
+   /// grounded may have no eliminated() rows. No node may be held obliquely to the axes by a
+   /// diagonal alone (an eliminated support on a slope). This is not checked in space.
    void validate() const;
    /// The message about a load that displaces dofs without coupling to others.
    static constexpr const char *feels_nothing =

@@ -13,12 +13,12 @@ namespace cattaneo
     as for the second of two equal bodies turned by 180° or shifted) its factor is used and
     nothing is factored.
 
-    InputError before factoring: if the body is not sound (AssembledBody::validate), if a dof of
+    InputError before factoring: if the body is not valid (AssembledBody::validate), if a dof of
     the line has another component or another place than its node, or if a load displaces a
     contact dof. Also if supports and contact nodes together leave a rigid motion of the body,
     or of a part of it, free. InputError after factoring if the stiffness is not positive
-    definite. Contact dofs that are fixed, on a plane of symmetry for instance, are no part of
-    the trace (CondensedBody::held). */
+    definite. Fixed contact dofs, on a plane of symmetry for instance, are not part of the
+    condensed stiffness (CondensedBody::held). */
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        const CondensedBody *alike = nullptr);
 /// The same in space, to the nodes of a surface. InputError also if a support holds one or two

@@ -9,14 +9,14 @@
 namespace cattaneo
 {
 
-/// The way back from the contact nodes of a condensed body to all of it. All in global
+/// Computes displacements of the whole body from those of its contact nodes. All in global
 /// components.
 class BodySolver
 {
 public:
    virtual ~BodySolver() = default;
-   /// Displacements of all dofs (of this rank's, if the body is on several) for those of the
-   /// contact dofs and load multipliers.
+   /// Displacements of all dofs (only those of this rank, if the body is on several) from
+   /// displacements of the contact dofs and load multipliers.
    virtual Eigen::VectorXd recover(const Eigen::VectorXd &contact,
                                    const Eigen::VectorXd &multipliers,
                                    Counters &counters) const = 0;
@@ -32,11 +32,11 @@ public:
     the twist whatever the line's frames. In space u = {v₁; v₂; w} in the frames of the surface:
     all first tangents, all second ones, then the normals.
 
-    Nothing of the program that assembled the body is kept but its matrix. */
+    Of the program that assembled the body only the matrix is kept. */
 class CondensedBody
 {
 public:
-   std::string name;            ///< what sentences about unions call it; may be empty
+   std::string name;            ///< name of the body in messages; may be empty
    ContactLine line;            ///< its contact nodes, in their order; none in space
    ContactSurface surface = {}; ///< in space: its contact nodes, else none
    /// 2n × 2n (torsion: n × n, in space 3n × 3n), symmetric; zero in the rows and columns that
@@ -61,27 +61,27 @@ public:
    Eigen::MatrixXd free_motions;
    Counters counters; ///< of condensing it and of all later recoveries
 
-   /// Displacement of all dofs (of this rank's, if the body is on several) for contact
-   /// displacements {v; w} of *this body* and load multipliers (order of `patterns`). One solve
-   /// with the kept factor. Displacements of held components are not asked for.
+   /// Displacement of all dofs (only those of this rank, if the body is on several) for contact
+   /// displacements {v; w} of *this body* and load multipliers (order of `patterns`).
+   /// Displacements of held components are ignored. Costs one solve with the kept factor.
    Eigen::VectorXd recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
 
-   /** Relative error of S, an estimate from above by the energies of its solves; of a body
-       condensed by conjugate gradients from S u against the action of the operator, in double
-       precision. Materials or elements of great contrast within one body cost digits: 1e-3
-       means that stiffnesses, and with them displacements under given forces, are right to 0.1
-       %. Infinite: nothing is known of some motion. A few solves with the kept factor.
-       Collective. */
+   /** Relative error of S, an upper estimate from the energies of its solves. (For a body
+       condensed by conjugate gradients: from the difference of S u and the action of the
+       operator, in double precision.) Materials or elements of great contrast within one body
+       cost digits: 1e-3 means that stiffnesses, and displacements under given forces, have an
+       error of 0.1 %. Infinite: for some motion no digit is correct. A few solves with the kept
+       factor. Collective. */
    double error_estimate();
 
-   /// A plane body becomes so many times as thick: S, H and the forces of patterns, which were
-   /// per thickness for instance, are multiplied. Pressures are forces over the area of the
-   /// thinner one of two bodies. InputError about an axis, or unless it is positive and finite.
+   /// Multiplies the thickness of a plane body, and with it S, H and the forces of patterns.
+   /// Pressures are forces over the area of the thinner one of two bodies. InputError about an
+   /// axis, or unless it is positive and finite.
    void thicken(double times);
 
    /// Number of contact nodes.
    Eigen::Index nodes() const { return S.rows() / components(line.formulation); }
-   /// n × 3, places of the contact nodes; z is 0 but in space.
+   /// n × 3, places of the contact nodes; z is 0 except in space.
    Eigen::MatrixX3d places() const;
 
    /// The rigid motions of the contact nodes in local frames: plane 2n × 3 (x, y, rotation
@@ -90,12 +90,12 @@ public:
    Eigen::MatrixXd rigid_motions(const Eigen::Vector3d &centre = {0, 0, 0}) const;
 
    /// Displacements in x and y of a node for v = 1 and for w = 1, as columns: its tangent and
-   /// its normal, but where supports hold one of its components. In space 3 × 3: its tangents
-   /// and its normal.
+   /// its normal, unless supports hold one of its components. In space 3 × 3: its tangents and
+   /// its normal.
    Eigen::MatrixXd directions(Eigen::Index node) const;
-   /// Do supports hold the component, 0: x or r, 1: y or z, of a node? Not of torsion.
+   /// Do supports hold a component (0: x or r, 1: y or z) of a node? Not for torsion.
    bool holds(Eigen::Index node, int component) const;
-   /// Does a load move the component, 0: x or r, 1: y or z, of a node?
+   /// Does a load move a component (0: x or r, 1: y or z) of a node?
    bool moves(Eigen::Index node, int component) const;
 
    std::shared_ptr<const BodySolver> solver; ///< shared by copies, of the free components

@@ -44,10 +44,10 @@ struct LineElement
    std::vector<Eigen::Index> nodes;
    Eigen::Matrix2Xd points; ///< places of all of them, one a column
    /// The smooth curve of which the line between its ends is a chord; straight if the side is a
-   /// polygon. Empty, that is not known, for elements that their mesh curves, and for a script
+   /// polygon. Empty means not known: for elements that are curved in the mesh, and in a script
    /// that does not set it (see smooth_curve()).
    std::optional<EdgeBend> bend = std::nullopt;
-   /// The curve to which it may belong if its side is kept a polygon for lack of evidence
+   /// The curve to which the element may belong, although its side is treated as a polygon
    /// (possible_curve()). Gaps are not measured on it, but estimates of errors use it.
    EdgeBend possible = {};
 
@@ -57,7 +57,7 @@ struct LineElement
    double off_chord(Eigen::Index node) const;
    /// Distance of its smooth curve from the element at 0 <= s <= 1; zero if no curve is known.
    Eigen::Vector2d off_curve(double s) const;
-   /// The same of the curve that it may belong to.
+   /// The same for the curve that it may belong to.
    Eigen::Vector2d off_possible(double s) const;
    /// The direction of its smooth curve there, a unit vector; that of the chord if no curve is
    /// known.
@@ -73,19 +73,19 @@ struct LineChain
    /** How the boundary of the body goes on beyond the first and the last node, under any
        attribute. It goes on smoothly if it turns by less than smooth_turn. Up to corner_turn it
        may also turn 1.5 times as much as the line itself between its last two elements, because
-       a polygon stands for a curve. Else there is a corner. A loop goes on smoothly. Unknown
-       where no outer edge goes on. */
+       a polygon stands for a curve. Else there is a corner. A loop goes on smoothly. Unknown if
+       there is no next outer edge. */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
-   /// Elements in their order along the chain. Without them nobody knows whether the elements
-   /// of two lines match. Nodes are then paired by places and weights alone.
+   /// Elements in their order along the chain. Without them it is not known whether the
+   /// elements of two lines match, and nodes are paired by places and weights only.
    std::vector<LineElement> elements = {};
    /// At ends on a plane of symmetry that is a support: the angle in radians between the line
    /// and the normal of that plane. For a straight line its own tangent counts, else that of
    /// the curve through its last nodes. Set when the body is condensed.
    std::array<double, 2> off_symmetry{0, 0};
-   /// Degrees. A line that meets a support at 90 degrees, to within this angle, ends at a plane
-   /// of symmetry, as coordinates of six digits may have that error. At larger angles it does
-   /// so only if it curves such that it meets its own mirror image without a corner.
+   /// Degrees. A line that meets a support at 90 degrees within this angle ends at a plane of
+   /// symmetry. (Coordinates of six digits may cause such an error.) With a larger deviation it
+   /// does so only if it curves such that it meets its own mirror image without a corner.
    static constexpr double symmetry_turn = 0.01;
    /// Turn of the tangent between elements in degrees; less is smooth
    static constexpr double smooth_turn = 10;
@@ -93,7 +93,8 @@ struct LineChain
 };
 
 /** The trace of a body on an interface: its ordered contact nodes and the boundary elements
-    between them. Plain data, of an MFEM body from contact_line(), of any other from a script.
+    between them. Plain data: contact_line() makes it for an MFEM body, a script for any other
+    body.
 
     Nodes run along the boundary with the body on the left. Each node has a right-handed local
     frame (tangent, normal) with the normal *into* the body (thesis 3.2.1); at a node between
@@ -107,18 +108,18 @@ struct LineChain
     starts at its lowest vertex (x, then y) and does not repeat it.
 
     In axisymmetry and torsion x = r, weights are areas of the whole circumference, ∫φ_i 2πr ds,
-    and a node on the axis is left out: its weight is exactly zero from order 2 on (that of
-    order 1, πh²/3, is added to its neighbour's), so that it carries no pressure that could be
-    told, and its tangential displacements are zero by symmetry. In the reduced problem it moves
-    freely, which opens it or lets it overlap by O(h³) of the indentation (order 1, whose first
-    node then shows 7 % too little pressure on any mesh, is better avoided there). Pressures,
-    force over weight, are right from the first node on; tractions that grow with r are not: a
-    shear c r reads 1.2 and 0.9 times as large at the first two nodes of quadratic elements, a
-    torsional one 1.6 and 0.7 times, an error of 0.3 c h that dies out as 1/r². Resultants and
-    torques of nodal forces are exact. */
+    and a node on the axis is left out: its weight is exactly zero from order 2 on (with order 1
+    its weight, πh²/3, is added to its neighbour's), so that it has no pressure, and its
+    tangential displacements are zero by symmetry. In the reduced problem it moves freely, so
+    that it may open or overlap by O(h³) of the indentation. (Avoid order 1 there: the pressure
+    of the first node is then 7 % too small on any mesh.) Pressures, force over weight, are
+    correct from the first node on. Tractions that grow with r are not: a shear c r comes out
+    1.2 and 0.9 times as large at the first two nodes of quadratic elements, a torsional one 1.6
+    and 0.7 times. This error of 0.3 c h falls as 1/r². Resultants and torques of nodal forces
+    are exact. */
 struct ContactLine
 {
-   Formulation formulation = Formulation::plane; ///< decides what dofs and weights are
+   Formulation formulation = Formulation::plane; ///< determines the meaning of dofs and weights
    std::vector<LineNode> nodes;                  ///< along the boundary, chain after chain
    std::vector<LineChain> chains; ///< in the order of the nodes, each node on one
    /// Gaps are those of the elements themselves, not of the smooth curves of which they may be
@@ -159,7 +160,7 @@ struct ContactLine
    }
 
    /// Smallest ratio of the distances of a node to its neighbours. At this ratio the traction
-   /// at the middle node of a short quadratic element has three right digits. Each further
+   /// at the middle node of a short quadratic element has three correct digits. Each further
    /// decade costs two.
    static constexpr double least_ratio = 1e-6;
 
@@ -175,9 +176,9 @@ double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other);
 
 /** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
     lines, one after the other, each once. A node that two lines share (the end of one is the
-    beginning of the other) has the frame of the first, and the chain of the later ones loses
-    it. As meshed if all of them are. InputError if the lines are of different formulations, or
-   of none. */
+    beginning of the other) has the frame of the first line, and is removed from the chains of
+    later ones. The result is as_meshed if all lines are. InputError if the lines are of
+    different formulations, or of none. */
 ContactLine joined(const std::vector<ContactLine> &lines);
 
 /// Gives the elements of a line the known curves of its side (SmoothSides::chords of a mesh,

@@ -47,12 +47,12 @@ struct ContactSurface
    void validate() const;
 };
 
-/// A right-handed frame with this normal (a unit vector), rows as of SurfaceNode::frame.
+/// A right-handed frame with this normal (a unit vector); rows as in SurfaceNode::frame.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d &normal);
 
 /** The surface of faces of three or four nodes, whichever way they turn.
     @param faces   numbers of nodes around each face
-    @param node    what is known of a node: dofs and position; called once for each
+    @param node returns dofs and position of a node; called once for each
     @param inside  a direction from the face of that number into the body, not along it
     InputError, which begins with `where`, for another number of nodes, for a face without area,
     or if there is none. */

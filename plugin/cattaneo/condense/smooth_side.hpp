@@ -56,29 +56,28 @@ struct SidePolygon
     polygon. Three criteria decide, in this order.
 
     1. The file: vertices within one of its curves are smooth, its ends may be corners, and the
-       curvature may jump there. Where it is the same on both sides of an end, and within one of
-       these curves, the arc goes on. Curves with a corner inside are no curves, the file's are
-       then not looked at.
-    2. The run of turns. A vertex is a corner that turns much more, or less, than the vertices
-       beside it let expect: a chamfer with straight flanks. Where no curve is known an arc has
-       four turns in a row in one direction, or three alike: less is taken for a chamfer. Where
-       a third of the vertices around one are corners that turn to and fro it is one of a
-       profile of points, which is left.
+       curvature may jump there. If the curvature is the same on both sides of an end, and
+       within one of the two curves, the arc goes on. If a curve has a corner inside, the curves
+       of the file are not used.
+    2. The run of turns. A vertex is a corner if it turns much more, or less, than the vertices
+    beside it suggest, as at a chamfer with straight flanks. If no curve is known, an arc needs
+    four turns in a row in one direction, or three equal ones; with less it is taken for a
+    chamfer. If a third of the vertices around a vertex turn to and fro, it belongs to a
+    measured profile, which stays a polygon.
     3. The angle: a turn of more than `corner` degrees (within one of the file's curves
        `corner_within`) is a corner.
 
     Between corners the curvature is that of circles through three vertices, linear within an
-    edge; where it jumps (an arc that joins a straight flank) it is taken from the side that it
-    changes less on, so that the flank stays straight. Circles are exact, whatever the distances
-    of their vertices; other curves are met to the fourth order of the edges' length. Open ends
-    are one-sided, or mirrored (SidePolygon::beyond), loops periodic. */
+    edge; where it jumps (an arc that joins a straight flank) it is taken from the side on which
+    it changes less, so that the flank stays straight. Circles are exact, whatever the distances
+    of their vertices; other curves have an error of fourth order in the length of the edges.
+    Open ends are one-sided, or mirrored (SidePolygon::beyond), loops periodic. */
 std::vector<EdgeBend> smooth_curve(const SidePolygon &side);
 
-/** The arcs that edges may be chords of where smooth_curve() keeps a polygon for want of
-    evidence: vertices that turn alike, but too few of them, or amid others that turn to and
-   fro. Straight elsewhere, above all at corners and where the file says that edges are
-   straight. Gaps are not measured on these curves, but estimates of what chords change have
-   them. */
+/** The arcs whose chords edges may be, although smooth_curve() keeps a polygon: the vertices
+    turn equally, but are too few, or lie among others that turn to and fro. Straight elsewhere,
+    above all at corners and where the file says that edges are straight. Gaps are not measured
+    on these curves, but the estimates of chordal errors use them. */
 std::vector<EdgeBend> possible_curve(const SidePolygon &side);
 
 } // namespace cattaneo

@@ -6,8 +6,8 @@ namespace cattaneo
 {
 
 /** The trace of a body above y = 0 without a mesh: elements of one order that end at the given
-    places, x (or r), increasing. In axisymmetry and torsion a node on the axis is left out.
-    Weights are not known of it. InputError if the places do not increase. */
+    places, x (or r), increasing. In axisymmetry and torsion a node on the axis is left out. Its
+    weights are not known. InputError if the places do not increase. */
 ContactLine straight_line(const std::vector<double> &grid, int order,
                           Formulation formulation = Formulation::plane);
 

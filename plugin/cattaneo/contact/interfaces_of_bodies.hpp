@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// A body of a union, with its name in sentences about it.
+/// A body of a union, with its name in messages.
 struct NamedBody
 {
    std::string name;        ///< unique among the bodies
@@ -30,7 +30,7 @@ struct BoundaryInterface
    std::optional<ScalarField> gap = std::nullopt; ///< the geometry's unless given
    /// In lengths of an element; a larger overlap is an error
    double most_overlap = Interface().most_overlap;
-   bool tied = false; ///< joined, whatever happens
+   bool tied = false; ///< joined permanently
    /// Gaps are those of the meshes' edges. Otherwise straight edges whose vertices lie as on a
    /// smooth curve are taken for its chords (smooth_curve()), and gaps are measured between the
    /// curves, without changing the meshes. With elements of order 2 or more it is better to

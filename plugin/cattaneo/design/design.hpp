@@ -6,14 +6,14 @@
 namespace cattaneo
 {
 
-/// One case of loads of a design. It is marched from the virgin state.
+/// One load case of a design. It is marched from the virgin state.
 struct DesignCase
 {
    std::string name;    ///< in messages
    LoadHistory history; ///< of the problem's patterns
-   double weight = 1;   ///< of its responses; with a negative one they are made large
-   /// Responses are taken at the points of the history from this time on. NaN: at the last one
-   /// alone.
+   double weight = 1;   ///< weight of its responses; a negative weight maximises them
+   /// Responses are taken at the points of the history from this time on. NaN: at the last
+   /// point only.
    double from = std::nan("");
 };
 
@@ -22,15 +22,16 @@ struct DesignCase
 using DesignObjective = std::function<std::vector<Response>(
    const Responses &of, const std::vector<std::size_t> &states)>;
 
-/// The number that is made as small as possible.
+/// The number that is minimised.
 enum class DesignGoal
 {
    least_largest, ///< the largest response of all cases, each times its case's weight
-   least_sum      ///< the sum of these
+   least_sum      ///< the sum of all responses, each times its case's weight
 };
 
-/** The choice and its goal. Each variable x_j adds x_j times a change of parameters (gap,
-    friction, load multipliers) to those of the problem and its cases, for instance
+/** The variables of a design and its goal. Each variable x_j adds x_j times a change of
+    parameters (gap, friction, load multipliers) to those of the problem and its cases, for
+    instance
 
         gap = G0 + Σ x_j g_j.
 
@@ -50,8 +51,8 @@ struct DesignProblem
    Eigen::VectorXd low;                         ///< lower bound of each, finite
    Eigen::VectorXd high;                        ///< upper bound of each, finite
    Eigen::MatrixXd limits;                      ///< L, a row a limit
-   Eigen::VectorXd least;                       ///< of L x; -infinity: none
-   Eigen::VectorXd most;                        ///< of L x; infinity: none
+   Eigen::VectorXd least;                       ///< lower limits of L x; -infinity: none
+   Eigen::VectorXd most;                        ///< upper limits of L x; infinity: none
    DesignGoal goal = DesignGoal::least_largest; ///< of the objective's responses
    /// None: pressures of all nodes, so that the goal is the least peak pressure.
    DesignObjective objective;
@@ -73,24 +74,25 @@ std::vector<Parameters> gap_variables(const Eigen::MatrixXd &G);
     `least` and `most`. InputError if variables or positions along the line are missing. */
 void limit_curvature(DesignProblem &problem, double least, double most);
 
-/// The first row of `limits` that L x breaks by more than `tolerance` times the sum of the
+/// The first row of `limits` that L x violates by more than `tolerance` times the sum of the
 /// absolute values of its terms; -1: none.
 Eigen::Index violated_limit(const DesignProblem &problem, const Eigen::VectorXd &x,
                             double tolerance = 1e-12);
 
 /** Other starts for a search: `count` points spread evenly over the box of the bounds (the
-    sequence of the generalised golden ratio), each of which `start` goes toward as far as the
-    limits let it, along those that it meets. InputError unless `start` is within bounds and
-    limits. */
+    sequence of the generalised golden ratio), moved towards `start` as needed: from `start` the
+    search point goes toward each of them as far as the limits allow, and along a limit that it
+    meets. InputError unless `start` is within bounds and limits. */
 std::vector<Eigen::VectorXd> spread_starts(const DesignProblem &problem,
                                            const Eigen::VectorXd &start, int count);
 
-/// What a search came to.
+/// Outcome of a search.
 enum class DesignStatus
 {
    optimal,        ///< conditions of optimality hold to the tolerance
-   improved,       ///< the best that was found, but they do not: see the message
-   no_equilibrium, ///< no march at the start comes to its end
+   improved,       ///< the best design that was found, but the conditions do not hold: see the
+                   ///< message
+   no_equilibrium, ///< the marches at the start do not reach their end
    unavailable,    ///< built without Ipopt
    stopped         ///< the monitor asked for it: the best so far (no traces: none)
 };
@@ -101,7 +103,7 @@ const char *name(DesignStatus status);
 /// How a design is searched. The defaults need no tuning.
 struct DesignSettings
 {
-   /// A steady state does not end it; its monitor watches the whole search
+   /// a steady state does not end the march; its monitor is for the whole search
    MarchSettings march;
    /// Largest error of the conditions of optimality, in units of the objective at the start,
    /// and of the limits.
@@ -121,10 +123,10 @@ struct ActiveResponse
    double multiplier = 0;     ///< share of it in the optimum, they add up to 1
 };
 
-/// The best design that was found, and how far it is an optimum.
+/// The best design that was found, and how well it meets the conditions of an optimum.
 struct DesignReport
 {
-   DesignStatus status = DesignStatus::improved; ///< what is known of x
+   DesignStatus status = DesignStatus::improved; ///< outcome for x
    std::string message;                          ///< what was found, in one sentence
    Eigen::VectorXd x;                            ///< variables
    double objective = std::nan("");              ///< of them; NaN: not known
@@ -151,13 +153,13 @@ struct DesignReport
    double seconds = 0;    ///< wall time
 };
 
-/** Finds the variables that serve the goal, from a start within bounds and limits, by Ipopt
-    with the derivatives of Sensitivity: the largest response through a bound on all of them
-    that is least; of pressures by linear programmes, as they are linear between changes of
-    states, each within the reach of what the one before promised and kept. What is found is an
-    optimum in its neighbourhood: contact is not convex. Responses bend where nodes change their
-    states; where that happens at the optimum its conditions need not hold, and it is
-    `improved`: the best design of all that were tried, never worse than the start.
+/** Finds the best variables from a start within bounds and limits, by Ipopt with the
+    derivatives of Sensitivity. The largest response is minimised through a bound on all
+    responses. Peak pressures, which are linear between changes of states, are minimised by
+    linear programmes within a trust region. The result is a local optimum, because contact is
+    not convex. Responses have kinks where nodes change their states. If this happens at the
+    optimum, its conditions need not hold, and the outcome is `improved`: the best design that
+    was tried, never worse than the start.
 
     `start`: a value of each variable. InputError if it is outside of a bound or a limit, if the
     derivatives of a shape are not those of its values, and as DesignProblem::validate() and

@@ -7,7 +7,7 @@
 namespace cattaneo
 {
 
-/// What is read out at an edge of contact, as responses.
+/// Results at an edge of contact, as responses.
 struct EdgeIntensities
 {
    Response k_n; ///< see EdgeFit
@@ -15,9 +15,9 @@ struct EdgeIntensities
 };
 
 /** K_N and K_T of fit_edge() from the tractions of a state of the trace, which are linear in
-    them: the position of the edge and the windows are those of now, and stay. That is what
-    changes with a load along a contact that does not grow; see moving_edge() for one that does.
-    K_T is that of a stuck contact: ask it of trace_stuck(). InputError as fit_edge(). */
+    them: the position of the edge and the windows stay as they are. This is correct for a
+    contact that does not grow with the load; for one that does see moving_edge(). K_T belongs
+    to a stuck contact: take it from trace_stuck(). InputError as fit_edge(). */
 EdgeIntensities edge_intensities(const ReducedProblem &problem, const MarchTrace &trace,
                                  std::size_t state, const ContactEdge &edge,
                                  CrackedBody cracked = CrackedBody::second,
@@ -30,7 +30,7 @@ struct CornerIntensities
    Response k_two; ///< zero without a second mode
 };
 
-/// The same of fretting::fit_corner(), at an edge that is complete.
+/// The same for fretting::fit_corner(), at a complete edge.
 CornerIntensities corner_intensities(const ReducedProblem &problem, const MarchTrace &trace,
                                      std::size_t state, const ContactEdge &edge,
                                      const fretting::CornerModes &modes,
@@ -44,11 +44,11 @@ struct MovingEdge
    Response k_n;      ///< p = K_N √t
 };
 
-/** Both of one fit: the square of the pressure is a parabola over the arc length, of least
-    squares through the nodes of the window of K_N, which vanishes at the edge and rises there
-    by K_N² a unit of length. Exact for a Hertz contact but for the pressures themselves; values
-    agree with contact_edges() within its errors. InputError as fit_edge(), for an edge that is
-    complete, and if the parabola has no zero there. */
+/** Both numbers come from one fit: the square of the pressure is a parabola over the arc
+    length, of least squares through the nodes of the window of K_N, which vanishes at the edge
+    and rises there by K_N² a unit of length. Exact for a Hertz contact apart from the error of
+    the pressures; values agree with contact_edges() within its errors. InputError as
+    fit_edge(), for an edge that is complete, and if the parabola has no zero there. */
 MovingEdge moving_edge(const ReducedProblem &problem, const MarchTrace &trace,
                        std::size_t state, const ContactEdge &edge,
                        const FitSettings &settings = {});

@@ -27,17 +27,17 @@ struct LimitGradient
 
     with the forces q_j, p_j at vertex j. Derivatives by the stiffness keep v, because λ does
     not change with v in first order. The relative error is about the square root of that of the
-    limit, because slip and mechanism are known so well. Where there are several mechanisms
-    derivatives are one-sided, and these belong to one of them. Derivatives by the gap are those
-    by a gap that is already closed, which absorb_gap() has made a load.
+    limit, because slip and mechanism have errors of that order. Where there are several
+    mechanisms derivatives are one-sided, and these belong to one of them. Derivatives by the
+    gap are those by a gap that is already closed, which absorb_gap() has made a load.
 
     `found` is false if the limit is not known from either side. InputError for sizes that do
     not fit. */
 LimitGradient load_limit_gradient(const LimitProblem &problem, const LimitReport &limit,
                                   const std::vector<StiffnessChange> &stiffness = {});
 
-/// Derivatives of friction_limit(): by how much the coefficient of friction, the same at all
-/// nodes, makes up for what a datum does to the work of the mechanism.
+/// Derivatives of friction_limit(): the change of the coefficient of friction, the same at all
+/// nodes, that compensates the change of the mechanism's work by a datum.
 LimitGradient friction_limit_gradient(const LimitProblem &problem, double load_factor,
                                       const LimitReport &limit,
                                       const std::vector<StiffnessChange> &stiffness = {});

@@ -17,7 +17,7 @@ struct TracedState
    /// If this node changes its state here (IncrementRecord::event), the share depends on the
    /// solution. -1: it depends on the history alone.
    Eigen::Index event = -1;
-   /// Worn off before the increment that ends here: the gap is g + depth. Empty: nothing.
+   /// Depth worn off before the increment that ends here: the gap is g + depth. Empty: no wear.
    Eigen::VectorXd depth = {};
 };
 
@@ -30,7 +30,8 @@ struct MarchTrace
    /// Number of the trace, as responses belong to one trace only. Each marched trace has
    /// another number, copies have the same one. 0: not known.
    std::uint64_t number = 0;
-   /// Does the march follow the path on which nodes close? Equal increments do not.
+   /// Does the march follow the exact path, on which nodes close one by one? Equal increments
+   /// do not.
    bool follows_path = false;
    /// Law by which the depth of the states follows from earlier states, also for worn_depth()
    /// of Responses. Without coefficients nothing wears.
@@ -46,7 +47,7 @@ struct MarchTrace
 /// march(), keeping all its states; the last one in `state`. InputError as march().
 MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history,
                        ContactState &state, const MarchSettings &settings = {});
-/// From before any load.
+/// The same from the virgin state.
 MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history,
                        const MarchSettings &settings = {});
 
@@ -60,16 +61,16 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
 MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
                       const LoadHistory &history, double cycles, WearState &state,
                       const WearSettings &settings = {});
-/// From the unworn contact, before any load.
+/// The same from the unworn contact, before any load.
 MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
                       const LoadHistory &history, double cycles,
                       const WearSettings &settings = {});
 
 /** A node that meets the laws of two states at once at the end of an increment: it touches
-    without force, or lies on the friction limit without having slipped. What a parameter does
-    then depends on the way in which it changes: derivatives are one-sided, those of the state
-    that the trace has. With the other state in its place (ContactState::status) they are those
-    of the other side. */
+    without force, or lies on the friction limit without having slipped. The effect of a
+    parameter then depends on the sign of its change: derivatives are one-sided, and belong to
+    the state that the trace has. With the other state in its place (ContactState::status) they
+    are those of the other side. */
 struct Tie
 {
    std::size_t state = 0;              ///< of the trace
@@ -80,13 +81,13 @@ struct Tie
 
 /** All ties of a trace, in its order. Within `tolerance` of the largest nodal force so far, by
     the node's own stiffness. The node at whose change of state an increment ends on the exact
-    path is none, as the path goes on through it smoothly; others that change with it are.
-    Where a path that is followed sets out, nodes that touch without force are tied (state 0):
-    with more gap they close on the way, and the derivatives of the other side are those of that
-    path, which this trace does not have.
+    path is no tie, because the path goes on smoothly with its new state; other nodes that
+    change at the same load are ties. At the start of an exact path nodes that touch without
+    force are ties (state 0): with a larger gap they would close later on the way, and the
+    derivatives of that side belong to another path than this trace.
 
-    A tie need not matter. Where a cycle comes back to its largest load all nodes that slipped
-    are tied; as long as these loads vary together both sides have the same derivative. */
+    A tie need not matter. If a cycle returns to its largest load, all nodes that slipped are
+    ties; as long as the loads vary together, both sides have the same derivative. */
 std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace,
                       double tolerance = 1e-9);
 

@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-/// What a response depends on in one state: derivatives by its entries. Empty: by none.
+/// Derivatives of a response by the entries of one state. Empty: it does not depend on these.
 struct StateWeights
 {
    Eigen::VectorXd displacements; ///< {v; w}
@@ -18,8 +18,8 @@ struct StateWeights
 };
 
 /** A number that a march returned, with its derivatives by the states of the trace: what
-    Sensitivity differentiates by parameters. Values of Responses, and what sums, products and
-    quotients make of them. */
+    Sensitivity differentiates by parameters. Values of Responses, and their sums, products and
+    quotients. */
 struct Response
 {
    double value = 0;                            ///< the number itself
@@ -58,12 +58,12 @@ public:
    /// Both must outlive this.
    Responses(const ReducedProblem &problem, const MarchTrace &trace);
 
-   /// Energy that friction takes between two states, by all nodes …
+   /// Energy lost by friction between two states, at all nodes …
    Response dissipation(std::size_t from, std::size_t to) const;
-   /// … or by one.
+   /// … or at one.
    Response dissipation(std::size_t from, std::size_t to, Eigen::Index node) const;
    /// Depth that a node loses between two states, by the law of the trace (MarchTrace::wear).
-   /// InputError if that has none.
+   /// InputError if the trace has no law of wear.
    Response worn_depth(std::size_t from, std::size_t to, Eigen::Index node) const;
    /// Volume that all nodes lose, see the function worn_volume().
    Response worn_volume(std::size_t from, std::size_t to) const;
@@ -77,7 +77,7 @@ public:
    Response normal_force(std::size_t state, Eigen::Index node) const;
    /// Normal force over weight. InputError if the node has none.
    Response pressure(std::size_t state, Eigen::Index node) const;
-   /// That of the node where it is largest (of several the first; derivatives are then
+   /// The largest pressure of all nodes (of several equal ones the first; derivatives are then
    /// one-sided).
    Response peak_pressure(std::size_t state) const;
    /// Sum of q times lever arms (size n; empty: 1).

@@ -9,8 +9,8 @@
 namespace cattaneo
 {
 
-/// How the stiffness and the loads of a reduced problem change with a number, a modulus that
-/// they are linear in for instance: derivatives by it.
+/// Derivatives of the stiffness and the loads of a reduced problem by a number, for instance by
+/// a modulus in which they are linear.
 struct StiffnessChange
 {
    Eigen::MatrixXd K; ///< of ReducedProblem::K, symmetric
@@ -21,15 +21,16 @@ struct StiffnessChange
 };
 
 /// All stiffnesses by the same factor, per unit of it: K and the forces of prescribed
-/// displacements as they are, -H of applied forces; of one body on a rigid obstacle, or of
-/// bodies that change together. InputError if patterns of both controls act on each other in H.
+/// displacements themselves, and -H of applied forces. It is valid for one body on a rigid
+/// obstacle, or for bodies that change together. InputError if patterns of both controls act on
+/// each other in H.
 StiffnessChange stiffness_scale(const ReducedProblem &problem);
 
 /** One number for each parameter of a march: how much it changes, or the derivative of a
     response by it. Empty: no change.
 
-    A cycle ends with the loads that it begins with: of the multipliers at these two points, and
-    of all points that are one state of loading, derivatives add up. */
+    A cycle ends with the loads that it begins with: derivatives by the multipliers at these two
+    points add up, as at all points with the same loads. */
 struct Parameters
 {
    Eigen::VectorXd friction;    ///< of each node, size n
@@ -38,7 +39,7 @@ struct Parameters
    Eigen::VectorXd stiffness;   ///< of each StiffnessChange
    Eigen::VectorXd wear;        ///< of Archard's k of each node (MarchTrace::wear), size n
 
-   /// Σ derivative × change, of whatever both have. InputError if sizes differ.
+   /// Σ derivative × change, over all parameters that both have. InputError if sizes differ.
    double dot(const Parameters &change) const;
 };
 
@@ -63,8 +64,8 @@ struct TraceChange
    Eigen::MatrixXd worn; ///< of the depth that it wears off; no columns: the trace has no law
    std::uint64_t trace = 0; ///< MarchTrace::number
 
-   /// Derivative of a response along the change. InputError if it is not known, or the response
-   /// is none of the trace.
+   /// Derivative of a response along the change. InputError if it is not known, or if the
+   /// response belongs to another trace.
    double of(const Response &response) const;
 };
 
@@ -91,11 +92,11 @@ struct TraceChange
     nodes had; where a node has two at once they are one-sided, see ties(). The state at the
     start is given and changes with nothing.
 
-    Where states leave a body free (it touches at one node, or slips everywhere), which the
-    history alone holds in place, that motion is taken to stay: derivatives are known of what
-    does not depend on it, and gradient() says where it would (`found` is false); along() does
-    not. Without friction that is so of a body that is free to slide, and derivatives by
-    friction, and by loads that push it, are NaN. */
+    If the states leave a body free (it touches at one node, or slips everywhere), only the
+    history determines its place, and this free motion is assumed not to change. Derivatives of
+    numbers that do not depend on it are known. For others gradient() returns `found` false;
+    along() does not check this. Without friction the same holds for a body that is free to
+    slide, and derivatives by friction, and by loads that push it, are NaN. */
 class Sensitivity
 {
 public:
@@ -107,13 +108,13 @@ public:
    /// Can be moved, not copied.
    Sensitivity(Sensitivity &&) noexcept;
 
-   /// InputError if the response is none of the trace. The monitor is asked between states; a
-   /// gradient that it stops is not found.
+   /// InputError if the response belongs to another trace. The monitor is called between
+   /// states; if it stops the gradient, `found` is false.
    Gradient gradient(const Response &response, const Monitor &monitor = {});
    /// InputError if sizes do not fit the problem and the history.
    TraceChange along(const Parameters &change, const Monitor &monitor = {});
 
-   /// Dense factorisations so far, and unknowns bordered to them instead.
+   /// Number of dense factorisations so far.
    long factorisations() const;
    /// How often an unknown was bordered to a factor so far.
    long updates() const;

@@ -89,20 +89,20 @@ public:
 
    /// Forces on the true dofs of the space (of this rank), in axisymmetry on the whole
    /// circumference, in torsion torques. For loads that the other functions do not cover.
-   /// InputError if the size is another or a force is not finite.
+   /// InputError if the size is wrong or a force is not finite.
    void add_forces(const std::string &pattern, const mfem::Vector &forces);
    /// Forces of an assembled linear form on the body's own space.
    void add_forces(const std::string &pattern, const mfem::LinearForm &form);
    /** An isotropic strain that the material takes without stress, such as α ΔT: the pattern
        gets the forces ∫ σ₀ : ε(v), σ₀ = D ε₀, at the points where the stiffness is integrated,
        and stresses are D (ε - ℓ ε₀), ℓ the pattern's multiplier. In plane strain and
-       axisymmetry it is a strain in all three directions. Asked again by stress_at: a
+       axisymmetry it is a strain in all three directions. stress_at evaluates it again, so a
        coefficient must outlive the body. InputError for a user's operator and for torsion. */
    void add_initial_strain(const std::string &pattern, const Field &strain);
-   /// The same of a tensor {xx, yy, xy, zz} (in axisymmetry {rr, zz, rz, θθ}), xy half of the
+   /// The same for a tensor {xx, yy, xy, zz} (in axisymmetry {rr, zz, rz, θθ}), xy half of the
    /// angle, the last out of the plane.
    void add_initial_strain(const std::string &pattern, const std::array<Field, 4> &strain);
-   /// The same of any symmetric 3 × 3 tensor, in the order x, y and out of the plane (r, z and
+   /// The same for any symmetric 3 × 3 tensor, in the order x, y and out of the plane (r, z and
    /// θ in axisymmetry); without shear out of the plane (InputError).
    void add_initial_strain(const std::string &pattern, mfem::MatrixCoefficient &strain);
 
@@ -130,15 +130,15 @@ public:
    /// pattern parts may share nodes, on which they must agree (InputError otherwise).
    void add_displacement(const std::string &pattern, const BoundaryPart &part, int component,
                          const ScalarField &u);
-   /// The same of all components, as a grid function on the body's own space has them
+   /// The same for all components, from a grid function on the body's own space
    /// (mfem::GridFunction::ProjectCoefficient, ProjectBdrCoefficient, …).
    void add_displacement(const std::string &pattern, const BoundaryPart &part,
                          const mfem::GridFunction &u);
 
-   /** A part that moves as a rigid block. Its loads are patterns like all others, which may
-       have more than this. InputError if a node of the part is held, moved or guided already,
-       for a load without a name, of torsion, and about an axis for anything but free or given
-       motion along it. Not of a body on several ranks. */
+   /** A part that moves as a rigid block. Its loads are patterns like all others, and may have
+       other parts too. InputError if a node of the part is held, moved or guided already, for a
+       load without a name, of torsion, and about an axis for any motion except one along it.
+       Not for a body on several ranks. */
    void guide(const BoundaryPart &part, const Guide &guide);
    /// Motions of guides that are free or under forces.
    const std::vector<BlockMotion> &blocks() const { return blocks_; }

@@ -13,7 +13,7 @@ namespace cattaneo
     as a load. The other one is its conjugate. */
 struct Guide
 {
-   /// How it moves in one way.
+   /// How it moves along one of its three motions.
    enum class Motion
    {
       held,
@@ -24,7 +24,7 @@ struct Guide
    /// One of its three motions.
    struct Along
    {
-      Motion motion = Motion::free; ///< in this way
+      Motion motion = Motion::free; ///< along this motion
       std::string load = {};        ///< name of the pattern, of force or displacement
       double value = 1;             ///< per unit multiplier
    };

@@ -12,8 +12,8 @@ struct Rotation
    Eigen::Vector2d place{0, 0}; ///< where it is
 };
 
-/// The largest one at the centre of an element, ½ (∂u_y/∂x - ∂u_x/∂y), of displacements at the
-/// body's true dofs. Not of torsion. Collective.
+/// The largest rotation at the centre of an element, ½ (∂u_y/∂x - ∂u_x/∂y), of displacements at
+/// the body's true dofs. Not of torsion. Collective.
 Rotation largest_rotation(const ElasticBody &body, const Eigen::VectorXd &displacement);
 
 } // namespace cattaneo

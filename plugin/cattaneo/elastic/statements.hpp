@@ -36,8 +36,8 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
                          Formulation formulation = Formulation::plane);
 
 /// Supports, separated by spaces: "1:x 2,4:xy" fixes components on boundary attributes,
-/// "@0,-1:x" at the node nearest to a point, which must not lie outside of the body. About an
-/// axis components are r and z, x and y mean the same, and t, around the axis: "1:rzt". An
+/// "@0,-1:x" at the node nearest to a point, which must lie within the body. About an axis
+/// components are r and z, x and y mean the same, and t, around the axis: "1:rzt". An
 /// axisymmetric body takes r and z from the same text, its torsion body t.
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
                   const BodyTerms &terms = {});
@@ -52,7 +52,8 @@ std::vector<int> supported_attributes(const std::string &called, const std::stri
 /// 20+3*y", "E initial-strain 1e-4" or "E initial-strain xx yy xy zz" (rr, zz, rz and θθ about
 /// an axis; xy is half of the angle). Names of patterns are UTF-8, without = , and ". About an
 /// axis also "T traction-t 3 0.5", force per area around it, and "W twist 3 0.01", a turn about
-/// it in radians: of the same text a torsion body takes these, an axisymmetric one the others.
+/// it in radians: from the same text a torsion body takes these loads, and an axisymmetric body
+/// the others.
 void add_loads(ElasticBody &body, const std::string &called, const std::string &text,
                const BodyTerms &terms = {});
 

@@ -23,15 +23,14 @@ struct NodeDof
    }
 };
 
-/** The stiffness of one body or several, with rows that are called by nodes and directions as
-    finite-element programs call them: what every reader returns, and what supports, loads and
-    contact lines are named on. Public, for matrices from elsewhere too.
+/** The stiffness of one body or several, whose rows have nodes and directions as in
+    finite-element programs. Every reader returns it, and supports, loads and contact lines are
+    given by its node sets. You can also fill it from a matrix of your own.
 
     Forces are per unit thickness in the plane, of the whole circumference about an axis. In
-    space each node has three directions, a place (x, y, z), and contact is on faces. Set
-    names are found whatever their capitals. Where nodes are asked for, nodes_of("TOP") or a
-    list goes. What does not fit is an InputError that names the file, the node and the
-    direction. */
+    space each node has three directions, a place (x, y, z), and contact is on faces. Set names
+    are found whatever their capitals. Arguments that are nodes may be nodes_of("TOP") or a
+    list. InputError, with the file, the node and the direction, for data that do not fit. */
 class NodalStiffness
 {
 public:
@@ -60,24 +59,24 @@ public:
    /// elements are known.
    std::vector<Nodes> faces = {};
    /// The program that wrote K left out rows of supports, so that K resists motions, or
-   /// eliminated them: rows that hold nothing but their diagonal are fixed then
+   /// eliminated them. Rows that have only their diagonal then count as fixed
    /// (AssembledBody::eliminated()).
    bool supports_left_out = false;
-   Nodes on_springs; ///< of a deck: where springs resist motions
+   Nodes on_springs; ///< from a deck: nodes with springs, which resist motions
 
-   /// Is there a set of that name, whatever its capitals?
+   /// Is there a set with this name (in any capitals)?
    bool has_set(const std::string &set) const;
-   /// Its nodes; InputError with the names that there are.
+   /// The nodes of a set; InputError with the names of all sets.
    const Nodes &nodes_of(const std::string &set) const;
 
-   /// Holds a direction (1 or 2, in space 1 to 3) of nodes. Rows that K has no more are held
-   /// already.
+   /// Holds a direction (1 or 2, in space 1 to 3) of nodes. Directions without a row in K are
+   /// held already.
    void fix(const Nodes &nodes, int direction);
    /// Adds a force at each of the nodes to the load of that name, which is new or has force
    /// control.
    void add_forces(const std::string &load, const Nodes &nodes, int direction, double force);
-   /// Moves nodes by a value per unit multiplier, and fixes them; a row that K has no more,
-   /// or of which it has the diagonal alone (an eliminated support), cannot be moved.
+   /// Moves nodes by a value per unit multiplier, and fixes them; a direction without a row in
+   /// K, or whose row has only the diagonal (an eliminated support), cannot be moved.
    void add_displacement(const std::string &load, const Nodes &nodes, int direction,
                          double value);
    /// Force per length (area, about an axis) on the elements that contact_line() finds.
@@ -92,15 +91,15 @@ public:
    /// other control.
    BodyLoad &load_of(const std::string &load, Control control);
 
-   /** Bodies that are connected to nothing, by the lowest number of their nodes. Each has the
-       rows, places, edges, supports and loads that are its own, and of the sets what of them is
-       its own; it is called by the smallest set that has all of its nodes and no other body's,
-       else "body 1", "body 2", …. Supports were left out of those that have nodes without rows
-       or on springs, where that is known; the others must be free (see body()). */
+   /** Bodies that are connected to nothing, by the lowest number of their nodes. Each gets its
+       own rows, places, edges, supports, loads, and its part of the sets. Its name is that of
+       the smallest set that has all of its nodes and none of another body, else "body 1", "body
+       2", …. Bodies with nodes without rows, or on springs, count as having supports (if that
+       is known); the others must be free (see body()). */
    std::vector<NodalStiffness> parts() const;
 
-   /** For condense(), with rows for dofs. Nodes on an axis do not move off it, whether a
-       support says so or not. InputError if nothing is fixed or left out and K resists a rigid
+   /** The body for condense(), whose dofs are the rows. Nodes on an axis stay on it, with or
+       without a support. InputError if nothing is fixed or left out and K resists a rigid
        motion by more than 1e-12 of its entries. */
    AssembledBody body() const;
 
@@ -110,7 +109,7 @@ public:
        order these are. order 1 to 8, where no elements are known: nodes are in order, the body
        on their left, elements of that order through them, each but its ends at the
        Gauss–Lobatto points (order 2: the middle); a loop names its first node again at the end.
-       Refused if K shows that the body is on the right.
+       InputError if K shows that the body is on the right.
 
        Weights, tangents, ends and what happens on an axis are those of a contact line of
        MFEM. */
@@ -120,14 +119,14 @@ public:
        InputError if no elements are known, or there is no such face. */
    ContactSurface contact_surface(const Nodes &nodes) const;
    /** The same on faces of three or four nodes, which need not be outer faces of elements that
-       are known. The side on which the body lies is told by K. */
+       are known. The side of the body follows from K. */
    ContactSurface contact_surface(const std::vector<Nodes> &on) const;
 
    /// (x, y, z) of a node; z is 0 but in space.
    Eigen::Vector3d place(int node) const;
 
-   /// Number of each dof's row; InputError for a direction that is none, a second row of a dof,
-   /// or a node without a place.
+   /// Number of each dof's row; InputError for a direction that does not exist, a second row of
+   /// a dof, or a node without a place.
    std::map<NodeDof, int> rows() const;
    /// InputError unless rows, places, fixed rows and loads fit each other.
    void validate() const;
@@ -148,9 +147,9 @@ private:
                        std::size_t group) const;
 };
 
-/** What a condensed body is to another program: its stiffness in global components, {x; y} of
-    node 1, of node 2, … along its contact line, and the contact forces of its loads turned into
-    forces on that stiffness. Components that are held have no row. `sets` has one, "CONTACT".
+/** A condensed body for another program: its stiffness in global components, {x; y} of node 1,
+    of node 2, … along its contact line, and the contact forces of its loads turned into forces
+    on that stiffness. Components that are held have no row. `sets` has one, "CONTACT".
     InputError for a body of torsion. */
 NodalStiffness nodal_stiffness(const CondensedBody &body);
 

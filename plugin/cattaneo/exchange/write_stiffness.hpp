@@ -39,10 +39,10 @@ void write_abaqus(const std::string &file, const NodalStiffness &stiffness);
 /** Nastran: a bulk data file with the matrix as DMIG `KAAX` (symmetric, double precision, with
     0 where K has no entry), its nodes as GRID (x, y, 0), supports as SPC1 of set 1, and a load
     of forces each as FORCE of a set of its own, 1, 2, …, named by comments. Nodes that are
-    counted from 0 are counted from 1 there. Fields of 16 columns
-    have 10 or 11 digits: entries are right to 5e-10 of themselves, and rigid motions to no
-    more. Of a body of revolution entries are of the whole circumference. InputError if loads
-    prescribe displacements. */
+    counted from 0 are counted from 1 there. Fields of 16 columns have 10 or 11 digits: the
+    relative error of entries, and of the balance of rigid motions, is 5e-10. Of a body of
+    revolution entries are of the whole circumference. InputError if loads prescribe
+    displacements. */
 void write_nastran(const std::string &file, const NodalStiffness &stiffness);
 
 } // namespace cattaneo
