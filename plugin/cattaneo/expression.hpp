@@ -19,7 +19,7 @@ public:
    Expression(const std::string &called, const std::string &text,
               const std::vector<std::string> &variables);
 
-   /// The value for given variables, in their order. Not finite if the formula is not.
+   /// The value for given variables, in their order. It may be infinite or NaN.
    double operator()(std::initializer_list<double> values) const
    {
       return value_(values.begin());

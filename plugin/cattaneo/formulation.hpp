@@ -5,7 +5,7 @@
 namespace cattaneo
 {
 
-/// What the coordinates of a body stand for.
+/// The meaning of a body's coordinates and displacements.
 enum class Formulation
 {
    plane,        ///< (u_x, u_y), plane strain or plane stress, per unit thickness
@@ -14,7 +14,7 @@ enum class Formulation
    space         ///< (u_x, u_y, u_z)
 };
 
-/// What it is called in messages.
+/// Its name in messages.
 inline const char *name(Formulation formulation)
 {
    const char *const names[] = {"plane", "axisymmetric", "of torsion", "in space"};
@@ -39,7 +39,7 @@ inline bool about_axis(Formulation formulation)
    return formulation == Formulation::axisymmetric || formulation == Formulation::torsion;
 }
 
-/// What a component is called in messages.
+/// The name of a component in messages.
 inline const char *component_name(Formulation formulation, int component)
 {
    const char *const names[4][3] = {
@@ -47,9 +47,9 @@ inline const char *component_name(Formulation formulation, int component)
    return names[static_cast<int>(formulation)][component];
 }
 
-/** Length of the circle (or thickness of the slice) that a point at x = r of the plane stands
-    for: the one place where the 2πr of axisymmetry is written. Operators, loads and the weights
-    of contact lines are integrals over the plane times this. */
+/** Length of the circle, 2πr, (or thickness of the slice) that belongs to a point at x = r of
+    the plane. The 2πr of axisymmetry is written only here. Operators, loads and the weights of
+    contact lines are integrals over the plane times this. */
 inline double measure(Formulation formulation, double r)
 {
    return about_axis(formulation) ? 2 * M_PI * r : 1.0;

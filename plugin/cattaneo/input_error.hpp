@@ -56,7 +56,7 @@ void require(bool condition, const Parts &...parts)
 void require_positive(const char *what, double value);
 /// InputError unless the value is at least `least`.
 void require_at_least(const char *what, double value, double least);
-/// InputError unless the value is between both, which are not allowed themselves.
+/// InputError unless the value is between both limits, which are not allowed themselves.
 void require_between(const char *what, double value, double low, double high);
 
 } // namespace cattaneo

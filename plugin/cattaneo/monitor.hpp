@@ -7,7 +7,7 @@
 namespace cattaneo
 {
 
-/// How far long work has come.
+/// Progress of long work.
 struct Progress
 {
    double share = 0;   ///< share of the work that is done, from 0 to 1; NaN: not known
@@ -16,7 +16,7 @@ struct Progress
    double seconds = 0; ///< since it began; share and seconds say how long the rest will take
 };
 
-/** Watches long work, and may stop it. The settings of all long work have one.
+/** Observes long work, and may stop it. The settings of all long work contain one.
 
     The thread that does the work uses both, once an increment (or iteration), never in the
     middle of one. Copies share the same stop flag. */
@@ -37,7 +37,7 @@ struct Monitor
    static_assert(
       std::atomic<bool>::is_always_lock_free); // a signal handler may set such a flag
 
-   /// Has somebody asked the work to stop?
+   /// Was the work asked to stop?
    bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
    /// InputError naming the setting, its value and what is allowed.
    void validate() const { require_at_least("monitor: interval", interval, 0); }

@@ -25,7 +25,7 @@ double number(const std::string &where, const std::string &word);
 /// A field of a table in CSV (RFC 4180): in quotes if it has a comma, a quote or a line break.
 std::string csv_field(const std::string &text);
 
-/// Text that JSON can hold.
+/// Is the text valid UTF-8, as JSON requires?
 bool is_utf8(const std::string &text);
 
 /// InputError, which begins with `where`, if an object of a JSON text has a key twice, as a

@@ -79,10 +79,10 @@ void limit_curvature(DesignProblem &problem, double least, double most);
 Eigen::Index violated_limit(const DesignProblem &problem, const Eigen::VectorXd &x,
                             double tolerance = 1e-12);
 
-/** Other starts for a search: `count` points spread evenly over the box of the bounds (the
-    sequence of the generalised golden ratio), moved towards `start` as needed: from `start` the
-    search point goes toward each of them as far as the limits allow, and along a limit that it
-    meets. InputError unless `start` is within bounds and limits. */
+/** Other starts for a search: `count` points that are spread evenly over the box of the bounds
+    (the sequence of the generalised golden ratio). A point that violates limits is replaced by
+    the place that is reached on the way from `start` to it, along limits on the way. InputError
+    unless `start` is within bounds and limits. */
 std::vector<Eigen::VectorXd> spread_starts(const DesignProblem &problem,
                                            const Eigen::VectorXd &start, int count);
 

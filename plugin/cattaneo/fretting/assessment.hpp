@@ -18,7 +18,7 @@ struct FrettingProblem
    /// Sizes against which the near-edge field is judged small; 0 where unknown.
    double half_width = 0.0;    ///< a
    double rounded_width = 0.0; ///< part of the half width on the radius: a for Hertz, a-b else
-   bool bulk_known = false;    ///< crack.bulk_stress is the real one, not just left at 0
+   bool bulk_known = false;    ///< crack.bulk_stress was given, and is not just the default 0
 };
 
 /// Choices that the criteria leave open.
@@ -74,7 +74,7 @@ struct FrettingReport
    std::vector<Validity> validity;    ///< all measures, those that are good as well
 };
 
-/// InputError for bad input; everything else is said in the report.
+/// InputError for bad input; all other faults are in the report.
 FrettingReport assess(const FrettingProblem &problem, const FrettingSettings &settings = {});
 
 } // namespace cattaneo::fretting

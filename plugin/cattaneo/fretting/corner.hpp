@@ -41,8 +41,8 @@ struct CornerMode
    /// q of the mode at unit distance, positive on the body into the contact
    double shear = 0.0;
    /// Shear on the *pad* into the contact over the pressure. Square punch on a half-plane:
-   /// 0.543075578837 in mode I, -0.218923236249 in mode II. Without a sign of its own in the
-   /// limit of no pressure (equal angles, mode II), where it is infinite.
+   /// 0.543075578837 in mode I, -0.218923236249 in mode II. It is infinite, with no defined
+   /// sign, if the mode has no pressure (equal angles, mode II).
    double traction_ratio() const { return -shear / pressure; }
 };
 
@@ -83,7 +83,7 @@ struct CornerFit
     each. The window is chosen as that of fit_edge(): the one of least reported error, which is
     the larger of the standard error and the change when those two terms are left out. Nodes
     without pressure count here: a bonded corner may pull. A second mode that is not singular is
-    fitted as the regular term that it is.
+    fitted as a regular term.
 
     @param tractions edge is the position of the corner, shear is that on the body
     InputError as fit_edge(). */

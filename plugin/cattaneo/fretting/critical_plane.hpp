@@ -7,8 +7,8 @@ namespace cattaneo::fretting
 {
 
 /* Multiaxial criteria of fatigue at a point whose stresses are known through a steady cycle:
-   elsewhere than at the asymptotes of an edge, and beside them. They look at planes that hold
-   the z axis, which a state of plane strain or stress cracks along. */
+    also where the near-edge field does not hold. They consider planes that contain the z axis,
+    along which a body in plane strain or stress cracks. */
 
 /// Stress at a point: a row for each instant of a cycle, columns σ_xx, σ_yy, σ_zz, τ_xy in MPa,
 /// tension positive.
@@ -23,15 +23,15 @@ enum class PlaneCriterion
    fatemi_socie ///< γ_a (1 + k σ_n,max/σ_y), σ_n,max where that is tension [Fatemi 1988]
 };
 
-/// The k of the two that have one: 0.2 to 0.3 for ductile metals (Findley), 0.3 to 1
+/// The k of the two criteria that have one: 0.2 to 0.3 for ductile metals (Findley), 0.3 to 1
 /// (Fatemi–Socie).
 struct PlaneWeights
 {
    double findley = 0.3;      ///< of Findley's criterion
-   double fatemi_socie = 1.0; ///< of that of Fatemi and Socie
+   double fatemi_socie = 1.0; ///< of the criterion of Fatemi and Socie
 };
 
-/// Where a criterion is largest; of planes that tie, the one of the smallest angle.
+/// The plane on which a criterion is largest; of equal ones the plane with the smallest angle.
 struct CriticalPlane
 {
    double value = 0; ///< of the criterion
@@ -39,14 +39,15 @@ struct CriticalPlane
 };
 
 /** The plane on which the criterion is largest; strains are elastic, σ_y is √3 times the lower
-    yield stress in shear. Summits are sought half a degree apart and found to an angle of 1e-7:
-    one that is narrower is missed by less than 1e-4 of the largest stress.
-    InputError for a cycle without instants, stresses that are not finite, k < 0. */
+    yield stress in shear. Maxima are searched in steps of half a degree and found to an angle
+    of 1e-7. A narrower maximum may be missed, which changes the result by less than 1e-4 of the
+    largest stress. InputError for a cycle without instants, stresses that are not finite, k <
+    0. */
 CriticalPlane critical_plane(PlaneCriterion criterion, const StressCycle &cycle,
                              const FatigueMaterial &material, const PlaneWeights &weights = {});
 
-/// Uniaxial stress between the ends of the cycle at the lower fatigue limit and the load ratio
-/// at which that was measured: what a plain specimen just endures.
+/// The cycle of uniaxial stress that a plain specimen just endures: at the lower fatigue limit,
+/// and at the load ratio at which that was measured.
 StressCycle plain_fatigue_cycle(const FatigueMaterial &material);
 
 } // namespace cattaneo::fretting

@@ -35,7 +35,8 @@ struct SolvedEdge
    double k_t_range = 0;                   ///< ΔK_T of the cycle
    std::optional<EnergyComparison> energy; ///< none without a cycle
    std::optional<CornerFit> corner;        ///< complete edges only
-   std::vector<std::string> notes; ///< sentences: what was left out, and what not to trust
+   std::vector<std::string>
+      notes; ///< sentences on what was left out and on what is not reliable
 };
 
 /// The edges of a contact, or the reason why there are none.
@@ -46,8 +47,8 @@ struct EdgeReport
 };
 
 /** All edges of the contact, with intensities (contact_edges()), slip zones, energies and the
-    fits of corners. Never throws because of the solution. The report tells its faults instead.
- */
+    fits of corners. Never throws because of the solution; the report names its faults instead.
+    */
 EdgeReport read_edges(const MarchedStates &states);
 
 } // namespace cattaneo::fretting

@@ -27,8 +27,8 @@ using Traction = Eigen::Vector2cd;
 InPlaneStress half_plane_stress(const Traction &pressure, const Traction &shear, double y);
 
 /** σ_zz = c (σ_xx + σ_yy): the constraint c is Poisson's ratio in plane strain and 0 in plane
-    stress. It is all that these criteria need to know of the third direction.
-    InputError unless -1 < poisson < 0.5. */
+    stress. These criteria need no other data of the third direction. InputError unless -1 <
+    poisson < 0.5. */
 double out_of_plane_constraint(double poisson, bool plane_stress);
 
 /// Von Mises' equivalent stress, the root of (2.17), which is 3 J₂: yield at √3 k (2.18).

@@ -5,7 +5,8 @@
 namespace cattaneo::fretting
 {
 
-/** Everything the contact edge knows of the contact, at one instant of the load (thesis 2.2).
+/** The numbers through which the contact acts on its edge, at one instant of the load (thesis
+    2.2).
 
     Coordinates: t along the surface from the edge into the contact, y into the cracked body.
     Any consistent units: with N and mm, K_N is in MPa/√mm and K_T in MPa√mm. */

@@ -43,8 +43,8 @@ inline double sense(NodeState state)
                                               : 0.0;
 }
 
-/** All that the future of a frictional contact depends on: one value, copied and saved freely.
-    Sizes as in ReducedProblem; lengths and forces in the problem's own units. */
+/** All data on which the future of a frictional contact depends: one value, which can be copied
+    and saved. Sizes as in ReducedProblem; lengths and forces in the problem's own units. */
 struct ContactState
 {
    Eigen::VectorXd v; ///< slip: relative tangential displacement
@@ -77,8 +77,8 @@ struct ContactState
    /// {q; p}.
    Eigen::VectorXd forces() const;
 
-   /// The number of cycles, 1 or 2, after which the last of cycle_slip repeats to this share of
-   /// it; 0: no period is known.
+   /// The number of cycles, 1 or 2, after which the last slip of cycle_slip repeats within this
+   /// share; 0: no period is known.
    int steady_period(double tolerance) const;
 
    /// The state before any load: no slip, and all nodes without a gap stick.

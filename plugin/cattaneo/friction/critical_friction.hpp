@@ -18,11 +18,11 @@ struct CriticalFriction
    /** The contact can lock itself: above it there are contact forces inside the friction cones,
        not all zero, that balance each other on the bodies without any load (a wedge that stays
        where it was driven in); below it there are none, whatever the elasticity. It depends on
-       the directions of the contact as the rigid motions see them: tan α for a wedge with
-       flanks at ±α to its axis, infinite for a flat contact. Infinite as well where directions
-       do not decide: if both bodies are held, supports balance any forces, and a pin amid its
-       hole has pressures that balance without friction. Elasticity decides there, as for a
-       node.
+       the directions of the contact normals in the rigid motions: tan α for a wedge with flanks
+       at ±α to its axis, infinite for a flat contact. It is also infinite where directions do
+       not decide: if supports hold both bodies they balance any forces, and on a pin in the
+       middle of its hole pressures balance without friction. Elasticity then decides, as for a
+       single node.
 
        By Gordan's theorem either such forces exist, or there is a rigid motion that all edges
        of all cones oppose. */

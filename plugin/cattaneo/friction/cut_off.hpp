@@ -26,16 +26,17 @@ struct CutOffContact
       return chain == other.chain &&
              (chain < 0 || (node == other.node && at_first == other.at_first));
    }
-   /// What is wrong and what to do, without a full stop.
+   /// A sentence on the fault and its cure, without a full stop.
    std::string message() const;
 };
 
-/** Where a state's contact is cut off: the node at an end of a chain is compressed, and beyond
-    it *both* bodies go on smoothly (ContactChain::ends, other_ends), so that contact would go
-    on too if the line did. Forces, and zones near that end, are then wrong without any other
-    sign: a part of the boundary was named too short, or a pad rolled off its line. At corners
-    contact may well end. Nothing can be said of ends that are not known. On a surface a node of
-    ReducedProblem::rim is compressed. */
+/** The places at which the contact of a state is cut off. There the node at an end of a chain
+    is compressed, and beyond it *both* bodies go on smoothly (ContactChain::ends, other_ends),
+    so that the contact would continue if the line did. Forces, and zones near that end, are
+    then wrong, and nothing else in the results shows it. Either the part of the boundary that
+    was named is too short, or a pad has rolled off its line. At corners a contact may end. Ends
+    of an unknown kind are not reported. On a surface a node of ReducedProblem::rim is
+    compressed. */
 std::vector<CutOffContact> cut_off_contact(const ReducedProblem &problem,
                                            const ContactState &state);
 

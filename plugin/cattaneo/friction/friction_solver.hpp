@@ -10,8 +10,8 @@ namespace cattaneo
 
 struct FrictionSystem;
 
-/// Outcome of a friction solve or a march. All but the first tell something about the problem,
-/// or a failure of the solver; none is an exception.
+/// Outcome of a friction solve or a march. All statuses but the first are properties of the
+/// problem, or a failure of the solver. None is an exception.
 enum class FrictionStatus
 {
    converged,
@@ -59,7 +59,7 @@ struct FrictionSettings
    void validate() const;
 };
 
-/// What an increment came to.
+/// The result of an increment.
 struct IncrementReport
 {
    /// A solution was found if converged or not_unique
@@ -72,8 +72,8 @@ struct IncrementReport
    /// Otherwise they mean nothing.
    double residual_normal = 0;     ///< of normal displacements and forces
    double residual_tangential = 0; ///< of slip and friction forces
-   double round_off = 0;           ///< estimate of what arithmetic can reach, relative
-   const char *found_by = "";      ///< the method that found the solution, if one was found
+   double round_off = 0; ///< estimate of the smallest residual that round-off allows, relative
+   const char *found_by = ""; ///< the method that found the solution, if one was found
 };
 
 /** Solves increments of the frictional contact of a reduced problem: given the state at the
@@ -108,13 +108,13 @@ public:
    /// (ContactState::validate), or if a multiplier is missing or not finite.
    IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
 
-   /// What it solves, with the gap that holds now.
+   /// The problem, with the present gap.
    const ReducedProblem &problem() const;
    /// As they were given.
    const FrictionSettings &settings() const;
-   /// Sets another initial gap of each node, size n, from the next increment on, as wear opens
-   /// the gap between two increments. InputError for another size or an entry that is not
-   /// finite.
+   /// Sets another initial gap of each node, size n, from the next increment on, for instance
+   /// if wear opens the gap between two increments. InputError for another size or an entry
+   /// that is not finite.
    void set_gap(const Eigen::VectorXd &gap);
    /// Is friction zero at all nodes?
    bool frictionless() const;

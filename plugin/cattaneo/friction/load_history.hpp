@@ -19,7 +19,7 @@ struct LoadPiece
    int cycle = 0; ///< cycle that it belongs to: 0 for the opening part, then 1, 2, …
    bool begins_cycle = false; ///< it starts where the cycle does
    bool ends_cycle = false;   ///< it ends where the cycle does
-   double start = 0;          ///< time, which goes on through repeated cycles
+   double start = 0;          ///< time, which increases through repeated cycles
    double end = 0;            ///< likewise
    Eigen::VectorXd from;      ///< multipliers at its start
    Eigen::VectorXd to;        ///< multipliers at its end

@@ -40,7 +40,7 @@ public:
    /// Begins at a multiplier and its conjugate, see conjugates(). `whole` is false if the
    /// conjugate is the contact's part alone (ReducedProblem::knows_loads).
    Loop(Control control, double multiplier, double conjugate, bool whole = true);
-   /// One without a point yet, to be read from a file.
+   /// A loop without a point, to be read from a file.
    Loop() = default;
    /// The next point of the way, straight from the one before.
    void add(double multiplier, double conjugate);
@@ -89,8 +89,8 @@ private:
 struct CycleRecord
 {
    int cycle = 0; ///< its number, from 1
-   /// False if the march was resumed within the cycle from a state without a record of it. All
-   /// values here are then those of the rest of the cycle.
+   /// False if the march was resumed within the cycle from a state without its record. All
+   /// values here then belong to the rest of the cycle.
    bool whole = false;
    std::vector<Loop>
       loops;               ///< loop of each load pattern; their work() adds up to external_work

@@ -19,13 +19,13 @@ enum class Stepping
    /// loading without a gap (self-similar, unless a law of friction bends with pressure), and
    /// any piece without friction.
    fixed,
-   /** From one change of state to the next, exactly. The increments are stops: the states
-       there are recorded, whatever number of changes lies between. Pieces that one increment
-       solves exactly take that one. Where the path does not go on the march ends, if there is
-       no equilibrium beyond. Else an increment is made instead, to the next stop or to where a
-       node closes first: counted, with the reason, in the report. A state that is no
-       equilibrium (an initial slip, an interference) is brought to equilibrium by an increment
-       first.
+   /** From one change of state to the next, exactly. The increments are stops: the states there
+       are recorded, whatever number of changes lies between. Pieces that one increment solves
+       exactly take that one. If the path cannot be continued, the march ends if there is no
+       equilibrium beyond. Otherwise an increment is taken instead, to the next stop or to the
+       load at which a node closes first. The report has the number of such increments, and the
+       reason. A state that is no equilibrium (an initial slip, an interference) is brought to
+       equilibrium by an increment first.
 
        With two tangential components there is no such path, and FrictionMethod::gauss_seidel
        knows none. Equal increments are taken, halved while contact advances by more than one
@@ -49,7 +49,8 @@ struct MarchSettings
    bool every_event = false;
    /// Halvings of an increment, if contact advances or no solution is found
    int max_halvings = 12;
-   bool stop_at_steady_state = true; ///< the remaining cycles would be the same
+   bool stop_at_steady_state = true; ///< ends the march at a steady state, because the
+                                     ///< remaining cycles would be the same
    /// A cycle is steady if the slip at its end differs from that one or two cycles before by
    /// less than this share of the largest slip of the history.
    double steady_tolerance = 1e-10;
@@ -61,7 +62,7 @@ struct MarchSettings
    /// none, two marches take half and a quarter of the increments. This may take as long as the
    /// march itself.
    bool loss_error = false;
-   Monitor monitor; ///< is told the progress, and may stop the march
+   Monitor monitor; ///< is called with the progress, and may stop the march
 
    /// InputError naming the setting, its value and what is allowed.
    void validate() const;
@@ -75,7 +76,7 @@ struct IncrementRecord
    Eigen::VectorXd multipliers; ///< of the load patterns, at its end
    Eigen::VectorXd conjugates;  ///< of these: displacement or reaction, see conjugates()
    int stick = 0;               ///< number of nodes that stick, of settled_states()
-   int separation = 0;          ///< … that are apart
+   int separation = 0;          ///< … that are open
    int forward_slip = 0;        ///< … that slip forward, or in no direction
    int backward_slip = 0;       ///< … that slip backward
    int slip = 0; ///< with two tangential components: nodes that slip in any direction
@@ -122,8 +123,8 @@ struct NotUnique
     whole loss, and of the loss of each cycle.
 
     Increments know the path at their ends alone. A node that reverses or comes to rest within
-    one slips in one direction only. This changes the loss by the first order of the increments,
-    but the balance of energy by the second, so that MarchReport::energy_imbalance does not
+    one slips in one direction only. This changes the loss in first order of the increments, but
+    the balance of energy in second order, so that MarchReport::energy_imbalance does not
     measure it. */
 struct LossError
 {
@@ -142,14 +143,14 @@ struct LossError
    Counters counters; ///< of the march for comparison; not included in those of the report
 };
 
-/// What a march came to.
+/// The result of a march.
 struct MarchReport
 {
    FrictionStatus status = FrictionStatus::converged; ///< of the whole march
    std::string message;                               ///< one sentence, empty if converged
    double time = 0;                                   ///< reached
-   /// Where the outcome is not `converged`: time and load multipliers at which it came about.
-   /// An exact path that ends has them exactly, at the event after which it does not go on; the
+   /// Where the outcome is not `converged`: time and load multipliers at which it occurred. An
+   /// exact path that ends has them exactly, at the event after which it does not go on; the
    /// state is that event's. After an increment that failed they are those of the last
    /// equilibrium, found by bisection; the state is the last one whose forces are known to
    /// 1e-9. A first proportional loading without a gap has none, and they are those of its
@@ -169,7 +170,8 @@ struct MarchReport
    /// ends, so that its change is not among them. A piece that took one increment lists its
    /// changes at its start.
    std::vector<StateChange> changes;
-   int fallbacks = 0; ///< increments that were taken because the exact path did not go on
+   int fallbacks =
+      0; ///< increments that were taken because the exact path could not be continued
    std::string
       fallback_reason; ///< reason of the first of them, a sentence of docs/increments.md
    /// Increments that were halved because no solution was found; probes do not count
@@ -199,8 +201,8 @@ struct MarchReport
    double largest_residual = 0; ///< of all increments, relative
    /// Largest distance by which free bodies that touched nothing were moved before the march,
    /// if no first increment was found. They are moved as rigid bodies, without friction, to the
-   /// nearest place where the first loads that push them press them on. The slip of the march
-   /// begins there.
+   /// nearest place where they touch under the first loads that push them. The slip of the
+   /// march begins there.
    double taken_up_clearance = 0;
    /// of this march (those of making the solver are in the solver's counters)
    Counters counters;
@@ -210,16 +212,16 @@ struct MarchReport
 /// Called after every accepted increment.
 using MarchObserver = std::function<void(const ContactState &, const IncrementRecord &)>;
 
-/** Marches the state along a load history. The state's own time says where it stands, so that a
-    march can be cut and resumed: the result is the same to the last bit (on an exact path to
+/** Marches the state along a load history. The march begins at the time of the state, so that
+    it can be cut and resumed: the result is the same to the last bit (on an exact path to
     round-off, where no increment had to be taken instead: the factor of its equations is kept
     over stops and pieces). The same input gives the same bits. Stops early, with the status in
     the report, when there is no equilibrium or when the monitor says so; the state is then the
-    last one found. The monitor is asked between increments: the state of a march that was
-    stopped, taken up again, comes to what the march would have come to. What an observer throws
-   ends the march, the state being what it was called with. InputError also where the history
-   does not go on with the loads that the state has, unless there is no friction: the way there
-   would matter. */
+    last one found. The monitor is called between increments: a march that was stopped and
+    resumed gives the same result as one that was not stopped. An exception of an observer ends
+    the march; the state is then the one with which the observer was called. InputError also if
+    the history does not continue from the loads of the state, because the path between both
+    would matter (not without friction). */
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
                   const MarchObserver &observer = {});

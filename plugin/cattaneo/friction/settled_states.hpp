@@ -12,11 +12,11 @@ namespace cattaneo
     A tie is a node for which two states satisfy the laws at once: one that touches without
     force, or a closed one that is at the friction limit but has not moved. At a reload peak all
     nodes between the first and the steady border of stick are ties, and without load all nodes
-    are. All that reads, counts or draws states uses this function:
+    are. All functions that read, count or draw states use this one:
 
     - a node is in contact if it is pressed: p above 1e-10 of the largest nodal force so far and
-      above the round-off of its displacements. A node that only touches carries nothing and
-      counts as separated; without load the whole contact does;
+      above the round-off of its displacements. A node that only touches has no force and counts
+      as separated; without load all nodes do;
     - a node in contact slips if its status says so and |v - slip_origin|, its movement since it
       last stuck, opened or reversed, is larger than that least force would cause if the node
       moved alone; otherwise it sticks;
@@ -37,9 +37,9 @@ public:
    /// The problem must outlive this.
    explicit SlipRange(const ReducedProblem &problem) : problem_(&problem) {}
 
-   /// Begins with this state.
+   /// Starts the part of the march at this state.
    void start(const ContactState &state);
-   /// One more state of the stretch; the first one begins it.
+   /// Adds a state of the part.
    void note(const ContactState &state);
    /// Largest minus smallest slip, size n. With two tangential components it is the diagonal of
    /// the box that contains all slips.
@@ -53,7 +53,7 @@ private:
    std::vector<bool> closed_;
 };
 
-/// Slip of each node that can be told from round-off, size n: the displacement by the least
+/// The smallest slip of each node that is not round-off, size n: the displacement by the least
 /// force that counts (see settled_states), if this node moves alone.
 Eigen::VectorXd least_slip(const ReducedProblem &problem, const ContactState &state);
 

@@ -20,10 +20,10 @@ struct FarForce
 
 /** A uniform stress along the surface of a half-plane, as in a specimen under tension
     (positive). About an axis it is the same in all directions along the surface. It strains the
-    surface, which keeps its place at HalfPlane::point; the stiffness for the contact stays the
-    same. Its load pattern is one of forces. The conjugate is the volume that the contact adds
-    to the half-plane's extension along the stress. The extension by the uniform strain itself
-    is infinite and left out. */
+    surface, but HalfPlane::point keeps its place. The stiffness of the contact does not change.
+    Its load pattern is one of forces. The conjugate is the volume that the contact adds to the
+    half-plane's extension along the stress. The extension by the uniform strain itself is
+    infinite and left out. */
 struct BulkStress
 {
    std::string pattern; ///< load pattern it belongs to, which may have a far force as well
@@ -32,7 +32,7 @@ struct BulkStress
 
 /// Internal: the integrals about an axis of the contact line that was condensed last.
 class KeptRings;
-/// Makes an empty one.
+/// Makes an empty cache.
 std::shared_ptr<KeptRings> keep_rings();
 
 /** An elastic half-plane (in axisymmetry and torsion a half-space) with a straight surface: a
@@ -41,26 +41,26 @@ struct HalfPlane
 {
    Material material; ///< must be plane strain in axisymmetry and torsion
    /** Depth of the point below each force to which displacements in the plane are relative, >
-       0. Under a force a half-plane moves without bound as the depth grows (a logarithm), so a
-       prescribed displacement has no meaning without it. Results under given forces, relative
-       displacements of the contact among them, do not depend on it. It must be at least twice
-       the length of the contact line, so that S is positive definite; 1e4 times is fine. Not
-       needed in axisymmetry, where displacements are relative to infinity. */
+       0. The displacement under a force grows with the depth without bound (a logarithm), so a
+       prescribed displacement has no meaning without a depth. Results under given forces,
+       relative displacements of the contact among them, do not depend on it. It must be at
+       least twice the length of the contact line, so that S is positive definite; 1e4 times is
+       fine. Not needed in axisymmetry, where displacements are relative to infinity. */
    double depth = 0;
    /// A point of the surface, on the axis of symmetry if there is one. Bulk stresses do not
    /// move it.
    Eigen::Vector2d point{0, 0};
    Eigen::Vector2d normal{0, -1}; ///< into the half-plane, a unit vector
-   /// In the plane: is the line through `point` along the normal one of symmetry? Contact then
-   /// lies on one side of it, and the surface must be horizontal or vertical. Not given means
-   /// no. It must be given, either way, if a contact line ends at a plane of symmetry, as in
-   /// half a model (a node that its body holds along the surface, LineChain::symmetry_turn).
+   /// In the plane: is the line through `point` along the normal a plane of symmetry? Contact
+   /// then lies on one side of it, and the surface must be horizontal or vertical. Not given
+   /// means no. It must be given, either way, if a contact line ends at a plane of symmetry, as
+   /// in half a model (a node that its body holds along the surface, LineChain::symmetry_turn).
    std::optional<bool> symmetric = {};
    /// The given value; false if there is none.
    bool is_symmetric() const { return symmetric.value_or(false); }
    /** Without far forces the half-plane is held at its depth, in axisymmetry at infinity. With
-       far forces it moves, without turning, as they and the contact make it. They are load
-       patterns, whose conjugates are the half-plane's displacements there. With a plane of
+       far forces it moves freely under them and the contact, without rotation. They are load
+       patterns, whose conjugates are the half-plane's displacements far away. With a plane of
        symmetry they must act along the normal. None of them twists. */
    std::vector<FarForce> forces = {};
    /// Uniform stresses along the surface, see BulkStress. None of them twists.

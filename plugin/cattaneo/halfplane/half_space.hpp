@@ -25,8 +25,8 @@ struct HalfSpace
    std::optional<Material>
       other;                   ///< material of the body below, plane strain; empty: it is rigid
    Eigen::Vector2d size{1, 1}; ///< edges of each rectangle along x and y, > 0
-   /// Of the n rectangles that may touch, n × 2. They lie on one grid, that is they differ by
-   /// whole edges, and may be any of its cells, in any order. None where there are triangles.
+   /// Centres of the n rectangles that may touch, n × 2. They lie on one grid (they differ by
+   /// whole edges), and may be any of its cells, in any order. Empty if there are triangles.
    Eigen::MatrixX2d centres;
    Eigen::MatrixX2d vertices; ///< x and y, of the triangles
    /// Corners of the n triangles that may touch, n × 3: rows of `vertices`, from 0, in either
@@ -35,7 +35,7 @@ struct HalfSpace
    /// Is the body above free to turn about the normal through x = y = 0? It never tilts.
    bool turns = false;
    /// Does a body end at the rim of the cells, as a flat punch does? If not, contact that is
-   /// compressed there is cut off, and reports tell it.
+   /// compressed there is cut off, and reports say so.
    bool ends = false;
 
    /// InputError for a material that is none or of plane stress, edges that are not positive,
@@ -61,7 +61,7 @@ struct HalfSpace
        (n × 3, z = 0), and unless a body `ends` there as rim the rectangles that lack one of
        four neighbours or triangles that have an edge alone.
 
-       The body above goes where its far forces take it. Patterns "P" (towards the other body),
+       The body above moves freely under its far forces. Patterns "P" (towards the other body),
        "Q1" and "Q2" (along x and y) have a unit force each, and, if it `turns`, "T" a unit
        moment about z. Their conjugates are the approach, the shifts and the turn of the far
        body. These motions are the problem's rigid motions.

@@ -7,11 +7,11 @@ namespace cattaneo
 {
 
 /** Coordinates from `from` to `to` in steps first, first·growth, first·growth², … of at most
-    `largest` each. So that the list ends exactly at `to`, the last steps (as many as together
-    measure four times what is missing or too much) are scaled by one factor, between 3/4 and
-    5/4; all steps if there are only few. `from` > `to` is allowed; the result runs from `from`
-    to `to`. InputError unless first > 0, growth >= 1, largest > 0, from != to, all finite but
-    `largest`. */
+    `largest` each. To end exactly at `to`, the last steps are scaled by one factor between 3/4
+    and 5/4. Their number is such that together they are four times as long as the difference;
+    all steps are scaled if there are only few. `from` > `to` is allowed; the result runs from
+    `from` to `to`. InputError unless first > 0, growth >= 1, largest > 0, from != to, all
+    finite but `largest`. */
 std::vector<double> graded(double from, double to, double first, double growth,
                            double largest = 1e300);
 

@@ -18,9 +18,9 @@ struct MeshPart
    /// If `name` is empty and there are several instances, the one with this name is used.
    std::string usual = {};
    /// The name of a line within the body (a physical curve of Gmsh) along which the mesh is
-   /// cut: elements on its two sides have nodes of their own there, but for ends within the
-   /// body, which are tips of the crack. The two lips are boundaries "NAME+", on the left of
-   /// the line as it runs, and "NAME-". Empty: none.
+   /// cut: elements on its two sides get separate nodes there, except at ends within the body,
+   /// which are tips of the crack. The two lips are boundaries "NAME+", on the left of the line
+   /// as it runs, and "NAME-". Empty: none.
    std::string split = {};
 };
 
@@ -63,15 +63,17 @@ struct MeshNames
 /// Names and other data of a mesh file that read_mesh() takes, for the same part of it.
 MeshNames mesh_names(const std::string &file, const MeshPart &part = {});
 
-/// A sentence if vertices coincide, to a thousandth of their shortest edge: there the body is
-/// cut and its faces may pass through each other. Otherwise nothing. `name` is the name of the
-/// mesh in the sentence. On boundary attributes `meeting` contact keeps the faces apart.
+/// A sentence if vertices coincide, within a thousandth of their shortest edge: the body is cut
+/// there, and its faces may pass through each other. Otherwise empty. `name` is the name of the
+/// mesh in the sentence. Boundary attributes `meeting` are left out, because contact keeps
+/// their faces apart.
 std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
                               const std::vector<int> &meeting = {});
 
-/// A sentence if the mesh is bent more than elements of this order can be: such a body resists
-/// turning. Measured on a ring whose edges span 10 degrees each: by 1e-2 of the forces of a
-/// shear as large as the turn with order 1, by 2e-4 with order 2; of 20 degrees, 2e-2 and 1e-3.
+/// A sentence if the mesh is more curved than elements of this order can be: such a body
+/// falsely resists rotation. Measured on a ring whose edges span 10 degrees each: by 1e-2 of
+/// the forces of a shear as large as the turn with order 1, by 2e-4 with order 2; of 20
+/// degrees, 2e-2 and 1e-3.
 std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name);
 
 } // namespace cattaneo

@@ -9,7 +9,7 @@ namespace cattaneo
 {
 
 /** The ranks that share a mesh: those of an mfem::ParMesh, or this one alone. Its functions are
-    collective: every rank must call them, in the same order. The one place that speaks MPI. */
+    collective: every rank must call them, in the same order. Only this class calls MPI. */
 class Ranks
 {
 public:
@@ -19,7 +19,7 @@ public:
 
    /// How many.
    int size() const { return size_; }
-   /// Which of them this is, from 0.
+   /// The number of this rank, from 0.
    int rank() const { return rank_; }
    /// More than one?
    bool several() const { return size_ > 1; }
@@ -49,8 +49,8 @@ public:
    std::vector<int> collect(const std::vector<int> &here) const;
    /// The first rank's matrix on all, whatever its shape.
    void share(Eigen::MatrixXd &matrix) const;
-   /// Deals the first rank's values to all, `count` of them to this one, in the order of the
-   /// ranks.
+   /// Distributes the first rank's values to all ranks in their order; this rank gets `count`
+   /// of them.
    void deal(const Eigen::VectorXd &all, int count, double *here) const;
 
 private:

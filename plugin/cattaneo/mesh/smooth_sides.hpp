@@ -29,8 +29,8 @@ struct SmoothSides
    /// The edges along those sides, with the curve of each (straight ones too): for
    /// bend_elements(line, chords).
    std::vector<SideChord> chords;
-   /// Those of them that are not in `chords`, as the elements beside them would fold: their
-   /// nodes stay on the chord, for bend_elements(line, folding).
+   /// Edges of the sides in contact that are not in `chords`, because the elements beside them
+   /// would fold: their nodes stay on the chord. For bend_elements(line, folding).
    std::vector<SideChord> folding;
 };
 
@@ -39,11 +39,11 @@ struct SmoothSides
     onto them. The mesh gets nodes of that order (mfem::Mesh::SetCurvature). Those along the
     sides move, and those within the elements beside them. Vertices stay. All sides of the body
     are curved, because a wall between a curve and chords would have a wrong thickness. The
-    answer lists the sides in contact. Real corners stay, and so do sides whose edges are curved
-    already. Elements beside the sides that would fold move the next ones with them. Where that
-    does not help, edges of free sides stay straight, then those of sides in contact
-    (SmoothSides::folding), and no others. With `order` 1 nothing is moved: contact_line() knows
-    of curves by itself.
+    result lists the sides in contact. Real corners stay, and so do sides whose edges are curved
+    already. If elements beside the sides would fold, the elements behind them are moved too. If
+    that does not help, edges of free sides stay straight, and as the last resort those of sides
+    in contact (SmoothSides::folding). With `order` 1 nothing is moved, because contact_line()
+    finds the curves by itself.
 
     @param attributes boundary attributes of the sides in contact
     @param curves of each boundary element the curve of the file that it is on, see

@@ -12,13 +12,14 @@ namespace cattaneo
 
        time, cycle, load multipliers (column "load NAME" each), numbers of nodes in stick,
        separation, forward and backward slip (with two tangents: slip), dissipation and external
-   work of the increment, relative residuals normal and tangential, round_off (what arithmetic
-   can reach of them), and the conjugate of each multiplier, see conjugates(): column
-   "displacement NAME" of a force, "reaction NAME" of a prescribed displacement; "contact
-   displacement NAME" and "contact reaction NAME" if only the contact's part of it is known
-    (ReducedProblem::knows_loads). At last IncrementRecord::found_by and IncrementRecord::event.
+       work of the increment, relative residuals normal and tangential, round_off (the smallest
+       residual that round-off allows), and the conjugate of each multiplier, see conjugates():
+       column "displacement NAME" of a force, "reaction NAME" of a prescribed displacement;
+       "contact displacement NAME" and "contact reaction NAME" if only the contact's part of it
+       is known (ReducedProblem::knows_loads). At last IncrementRecord::found_by and
+       IncrementRecord::event.
 
-    add() is made to be a MarchObserver. Numbers are written so that they are read back to the
+    add() can be used as a MarchObserver. Numbers are written so that they are read back to the
     last bit. Nothing is kept in memory. */
 class HistoryWriter
 {
@@ -27,9 +28,10 @@ public:
    /// break; names with a comma or a quote are put in quotes. Only the columns are kept from
    /// the problem.
    HistoryWriter(const std::string &file, const ReducedProblem &problem);
-   /// Goes on with the file of a march that is taken up from a state: rows beyond its time are
-   /// dropped, so that in the end it is that of a march that never stopped. InputError if what
-   /// stays does not end with the time and the multipliers of the state.
+   /// Continues the file of a march that is resumed from a state. Rows beyond the time of the
+   /// state are dropped, so that the result is the file of a march that never stopped.
+   /// InputError if the rows that stay do not end with the time and the multipliers of the
+   /// state.
    HistoryWriter(const std::string &file, const ReducedProblem &problem,
                  const ContactState &from);
 
@@ -56,7 +58,7 @@ class NodeWriter
 public:
    /// InputError if the file cannot be written or the problem lacks what is needed.
    NodeWriter(const std::string &file, const ReducedProblem &problem);
-   /// Goes on from the time of a state, as HistoryWriter.
+   /// Continues from the time of a state, like HistoryWriter.
    NodeWriter(const std::string &file, const ReducedProblem &problem, double time);
 
    /// InputError if the state does not fit or cannot be written.
@@ -67,17 +69,17 @@ private:
    StreamedFile file_;
 };
 
-/** Saves a state every few seconds while a march goes on, so that little is lost if the program
-    ends: with load_contact_state() the march is taken up again. The file is always whole. */
+/** Saves a state every few seconds during a march, so that little is lost if the program ends:
+    with load_contact_state() the march can be resumed. The file is always complete. */
 class StateSaver
 {
 public:
    /// InputError if a file of that name cannot be written, or seconds are negative.
    explicit StateSaver(const std::string &file, double seconds = 5);
 
-   /// Saves if it is time to: a state from which a march goes on to the last bit
-   /// (IncrementRecord::resumes), or any if none came for as long again. Add a state to a
-   /// HistoryWriter before, so that no row is missing.
+   /// Saves if the time has come, and the march can be resumed from this state to the last bit
+   /// (IncrementRecord::resumes). If no such state came for the same time again, any state is
+   /// saved. Add a state to a HistoryWriter before, so that no row is missing.
    void add(const ContactState &state, const IncrementRecord &record);
 
 private:

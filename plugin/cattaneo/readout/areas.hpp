@@ -20,7 +20,7 @@ struct SurfacePart
 struct ContactAreas
 {
    SurfacePart contact;    ///< stick and slip together
-   SurfacePart stick;      ///< pressed, and at rest
+   SurfacePart stick;      ///< pressed, without slip
    SurfacePart slip;       ///< pressed, and slipping in any direction
    SurfacePart separation; ///< open, or touching without force
 };
@@ -33,9 +33,10 @@ ContactAreas contact_areas(const ReducedProblem &problem, const ContactState &st
 struct RadialEdge
 {
    double radius = 0; ///< radius of the circle that has the area of the nodes within
-   /// Each node nearer to the centre than radius - error is within, each one beyond radius +
-   /// error outside. At least half an edge of a node, as a node that the edge crosses may be on
-   /// either side; large where the edge is no circle about that centre. An estimate, no bound.
+   /// All nodes nearer to the centre than radius - error are within the edge, and all nodes
+   /// beyond radius + error are outside. At least half an edge of a node, as a node that the
+   /// edge crosses may be on either side; large where the edge is no circle about that centre.
+   /// An estimate, no bound.
    double error = 0;
 };
 

@@ -17,8 +17,8 @@ enum class CrackedBody
    second
 };
 
-/** One end of a stretch of contact, with what the solution says of it. Units are those of the
-    reduced problem (forces per unit thickness); arc length as ReducedProblem::arc_length. */
+/** One end of a stretch of contact, with its results. Units are those of the reduced problem
+    (forces per unit thickness); arc length as ReducedProblem::arc_length. */
 struct ContactEdge
 {
    ZoneBorder position;     ///< arc length, read out between the nodes by zones()
@@ -53,8 +53,8 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
 /** K_N, K_T and the slip zone at each end of each stretch of contact, in the order of the
     nodes. An edge is incomplete unless the contact reaches an end of the contact line. Where
     both bodies go on smoothly beyond that end, the line is cut off, and the edge is neither. An
-    end on a plane of symmetry is no edge: the contact goes on as its mirror image, and the
-    other edge has the half of the contact that is there.
+    end on a plane of symmetry is no edge: the contact continues as its mirror image, and the
+    other edge has the whole half of the contact.
 
     K_N is fitted to the pressure of @a loaded. K_T is fitted to the shear of fully_stuck().
     Its singularity does not lie at the edge of contact but within a spacing of the last tied

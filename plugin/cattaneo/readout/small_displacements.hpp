@@ -9,9 +9,9 @@ namespace cattaneo
 
 struct ContactState;
 
-/** Did a march stay where displacements are small? The theory assumes that nodes keep the place
-    opposite them, and that gaps are measured along the initial normals. Beyond that results are
-    those of another problem, and nothing in them shows it. */
+/** Checks whether displacements of a march were small. The theory assumes that nodes keep
+    facing the same place, and that gaps are measured along the initial normals. With large
+    displacements results are wrong, and nothing in them shows it. */
 class SmallDisplacements
 {
 public:

@@ -36,21 +36,22 @@ std::vector<int> chain_numbers(const ReducedProblem &problem);
 
     Edges are read out between the nodes by extrapolating, to zero, what is smooth there:
     - end of contact: from inside the square of the pressure (which falls as the square root of
-      the distance), from outside the opening^(2/3), extrapolated by parabolas, and of the
-      two the surer one;
+      the distance), from outside the opening^(2/3), both extrapolated by parabolas; the one
+      with the smaller error is used;
     - advancing slip front: |v - slip_origin|^(2/3), a parabola through five nodes behind it;
     - else, at the edge of stick: the square of the frictional reserve f p - |q|, a straight
       line through three nodes.
 
     Displacements are smoother than nodal forces, since the edge of the discrete solution is a
-    node: against finer meshes, opening and slip are right to about 0.05 spacings, pressure to
-    0.2. A single mesh cannot vouch for that. The estimate of the error is the change when other
-    nodes are used, but at least a quarter of a spacing. It is half a spacing where the nodes
-    allow only a straight line or there is only pressure, and a whole one where there are too
-    few nodes. The edge is then the middle between its two neighbours. So is each end of a
-    contact of one node, whose body may have any tilt. Tractions are singular at an end of the
-    line that is in contact and a corner of one of the bodies. A border of stick or slip k nodes
-    from such an end has an estimate of at least 16/k spacings, or its distance from that end.
+    node: against finer meshes, the edge by opening and slip has an error of about 0.05
+    spacings, by pressure of 0.2. A single mesh does not prove that. The estimate of the error
+    is the change when other nodes are used, but at least a quarter of a spacing. It is half a
+    spacing where the nodes allow only a straight line or there is only pressure, and a whole
+    one where there are too few nodes. The edge is then the middle between its two neighbours.
+    So is each end of a contact of one node, whose body may have any tilt. Tractions are
+    singular at an end of the line that is in contact and a corner of one of the bodies. A
+    border of stick or slip k nodes from such an end has an estimate of at least 16/k spacings,
+    or its distance from that end.
 
     With two tangential components |v - slip_origin| and |q| are lengths of vectors, and nodes
     that slip form one zone whatever their directions.
@@ -58,9 +59,10 @@ std::vector<int> chain_numbers(const ReducedProblem &problem);
     Needs the problem's arc_length and weights. */
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state);
 
-/** Zones of a stretch of a march, for the nodes in contact at one of its states: those that
-    moved at all within it (state slip), and those that did not (stick). Borders of stick are
-    read from the range alone, with the power 2/3 as above, of nodes that were never open. */
+/** Zones of a part of a march, for the nodes in contact at one of its states: nodes that
+    slipped at any time within it (state slip), and nodes that did not (stick). Borders of stick
+    are read from the range alone, with the power 2/3 as above, of nodes that were never open.
+    */
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state,
                         const SlipRange &slip);
 

@@ -15,8 +15,8 @@ constexpr double small_turn = 0.2;
 /// An edge of a contact side is uneven if it is shorter than this share of an edge beside it.
 constexpr double uneven_edges = 0.2;
 
-/** Sentences, none if there is nothing to say, about geometry that a solution hangs on without
-    any sign of it in the solution:
+/** Warnings about the geometry that strongly affect a solution, although the solution does not
+    show it. Empty if there are none:
 
     - nodes that are paired one to one where the elements of the bodies differ;
     - ends of contact lines that are taken for planes of symmetry though the line meets them at
@@ -25,14 +25,14 @@ constexpr double uneven_edges = 0.2;
       against friction: the frame is the mean of both, and whether the node sticks depends on
       that. The worst node of each interface is named;
     - nodes that bear with friction and that supports hold along an axis on which their frames
-      lean: how much of the tangential force is the support's is not determined, and friction
-      there is taken for none;
+      lean: the part of the tangential force that the support carries is not determined, and
+      friction there is left out;
     - nodes that bear and that a load moves along the interface (InterfaceReport::moved): their
       friction is left out;
     - a node at an edge of less than uneven_edges of the length of the edge beside it, where it
       bears more than 1.25 times the largest pressure at all other nodes of its interface;
     - straight edges that stay a polygon where the other side is a smooth curve that their
-      vertices fit: the gap is wrong by what their chords are off it.
+      vertices fit: the gap is wrong by the distance between chord and curve.
 
     p: normal forces of the nodes, of a state or the largest of a march; a node with more than
     1e-6 of the largest one bears. InputError unless there is one for each contact node. */

@@ -103,8 +103,8 @@ struct ChordalError
     smooth sides may meet, else 0.
 
     @param p normal forces of the contact nodes
-    @param w their normal displacements, which tell how far nodes are open that may close; left
-           out, open nodes stay open
+    @param w their normal displacements, which give the openings of nodes that may close;
+    without them open nodes stay open
     @return the shares. InputError unless there is one of each for each contact node. */
 ChordalError chordal_error(const Reduction &reduction, const Eigen::VectorXd &p,
                            const Eigen::VectorXd &w = {});

@@ -7,8 +7,8 @@
 namespace cattaneo
 {
 
-/** How the nodes of a slave line see a master line with another mesh. Contact node i is a node
-    of the slave, and its relative displacement
+/** Couples the nodes of a slave line to a master line with another mesh. Contact node i is a
+    node of the slave, and its relative displacement
 
        u_i = T_i (Σ_j own_ij U_j - Σ_m other_im U_m)
 
@@ -19,7 +19,7 @@ namespace cattaneo
     meshes. Nodes that match have P = 1.
 
     If the neighbour of an element is shorter than a fifth of it, the function of their common
-    node is only as wide on the long element as the short one is long. Both elements then see
+    node is only as wide on the long element as the short one is long. Both elements then use
     the same displacements of the master there.
 
     On an element that is faced in part, nodes with less than a quarter of their weight in that
@@ -72,10 +72,10 @@ struct Mortar
     node on the axis is no contact node: its displacement is that of the even (z) and odd (r)
     polynomials through the other nodes of its element.
 
-    `without` are nodes of the slave that are to carry no row; their neighbours share their
-    part. `what` begins the sentences of InputError: for lines of different formulations, of
-    torsion, without elements, that nowhere face each other, or for a slave element with a
-    weight that is not positive. */
+    `without` are nodes of the slave that get no row; their neighbours share their part. `what`
+    begins the messages. InputError for lines of different formulations, of torsion, without
+    elements, that nowhere face each other, or for a slave element with a weight that is not
+    positive. */
 Mortar mortar(const ContactLine &slave, const ContactLine &master,
               const std::vector<int> &without = {}, const std::string &what = "mortar");
 

@@ -8,9 +8,9 @@
 namespace cattaneo
 {
 
-// Gaps of contact nodes on a rigid obstacle of a shape: how far it is from each node against
-// the node's normal, negative where the body overlaps it. InputError that names a node that
-// faces nothing, and points or a radius that are none.
+// Gaps of contact nodes on a rigid obstacle: the distance of the obstacle from each node along
+// its outward normal, negative where the body overlaps it. InputError for a node that does not
+// face the obstacle, with its place, and for invalid points or an invalid radius.
 
 /// A polyline through two points or more, whose first and last sides go on without end (two
 /// points: a straight line). A node whose normal is parallel to a side within 5 degrees, and
@@ -31,8 +31,9 @@ Eigen::VectorXd gaps_to_plane(const ContactSurface &surface, const Eigen::Vector
 Eigen::VectorXd gaps_to_sphere(const ContactSurface &surface, const Eigen::Vector3d &centre,
                                double radius);
 
-/// The curve y = height(x), whichever of its sides is the obstacle's: the first point of it
-/// that is met on the way from a node, outwards or inwards in steps of the nodes' distance.
+/// The curve y = height(x), with the obstacle on either side of it. The gap is the distance to
+/// its nearest point along the node's normal, outwards or inwards, searched in steps of the
+/// spacing of the nodes.
 Eigen::VectorXd gaps_to_curve(const InterfaceReport &nodes,
                               const std::function<double(double)> &height);
 

@@ -27,13 +27,13 @@ LineNode mean_frame(LineNode node, const LineNode &other);
     of coordinates, and zero. InputError unless every node of both lines has one partner, with
     unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
-/** The same of the nodes of two surfaces, by their offset across the mean normal of both. Faces
-    may differ, as diagonals of triangles do. */
+/** The same for the nodes of two surfaces, by their offset perpendicular to the mean normal of
+    both. Faces may differ, for instance diagonals of triangles. */
 Pairing pair_surfaces(const ContactSurface &surface1, const ContactSurface &surface2,
                       double tolerance = 1e-6);
-/** As pair_lines(); nothing unless every node has its partner, and the elements of both lines
-   are the same ones between them (differing_element()). Forces on nodes that coincide are not
-   those of one traction where elements or orders differ. */
+/** Like pair_lines(), but empty unless every node has a partner and both lines have the same
+    elements between them (differing_element()). If elements or orders differ, equal tractions
+    do not give equal nodal forces on nodes that coincide. */
 std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
                                       double tolerance = 1e-6);
 

@@ -48,7 +48,7 @@ struct FrictionLaw
    bool concave() const;
 };
 
-/** The narrow waist: a frictional contact problem reduced to its n contact nodes.
+/** A frictional contact problem reduced to its n contact nodes.
 
        q = A v + Bᵀ w + Σ ℓ_k q_k         (thesis 3.25)
        p = B v + C  w + Σ ℓ_k p_k
@@ -66,8 +66,8 @@ struct ReducedProblem
 {
    /// The whole reduced stiffness [A Bᵀ; B C], (c+1)·n × (c+1)·n, symmetric.
    Eigen::MatrixXd K;
-   /// Is any entry of B not exactly zero? If none is, friction does not affect the normal
-   /// problem. However small an entry is, it counts.
+   /// Is any entry of B not exactly zero? If not, friction does not affect the normal problem.
+   /// Even a very small entry counts.
    bool coupled = false;
 
    std::vector<LoadPattern> patterns; ///< loads, in the order of multipliers
@@ -170,13 +170,14 @@ void complete(ReducedProblem &problem);
 /// orthonormal. InputError if they are not independent, one of them is resisted, or one that
 /// nothing resists is missing. Costs a Cholesky factor.
 void complete(ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions);
-/// InputError if the stiffness does not resist a motion that the problem does not state.
+/// InputError if the stiffness does not resist a motion that is missing in rigid_motions.
 void require_all_motions_stated(const ReducedProblem &problem);
 /// Copies B into its transpose and sets `coupled`, without a check and without rigid motions.
 void join_coupling(ReducedProblem &problem);
-/// InputError if the energy of some displacement of the nodes is negative, which no body's is.
-/// With such a stiffness a problem has several solutions, and the theorems do not hold. Costs a
-/// Cholesky factor: checked for problems made by hand and for files, not by validate().
+/// InputError if the energy of some displacement of the nodes is negative, which is impossible
+/// for bodies. With such a stiffness a problem has several solutions, and the theorems do not
+/// hold. Costs a Cholesky factor: checked for problems made by hand and for files, not by
+/// validate().
 void require_semidefinite(const ReducedProblem &problem);
 
 /// One chain of all nodes, in their order, for problems made by hand.
@@ -200,14 +201,14 @@ void set_friction(ReducedProblem &problem, double coefficient);
     tangents, where slip has no forward and backward. */
 void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
                       const std::vector<Eigen::Index> &nodes = {});
-/// The same law whichever way the nodes slip.
+/// The same law for both directions of slip.
 void set_friction_law(ReducedProblem &problem, const Eigen::MatrixX2d &points,
                       const std::vector<Eigen::Index> &nodes = {});
 /// InputError "WHO …" for a problem with laws of friction other than Coulomb's.
 void require_coulomb(const ReducedProblem &problem, const char *who);
 
-/// Holds the given rows of A (see ReducedProblem::held), for instance those of a node on a
-/// plane of symmetry. InputError if a row does not exist.
+/// Marks the given rows of A as held (see ReducedProblem::held), for instance those of a node
+/// on a plane of symmetry. InputError if a row does not exist.
 void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows);
 
 /** The equivalent problem without a gap (thesis 3.6.1): u* = u + {0; g}. The forces that close

@@ -13,14 +13,15 @@ struct Interface;
 struct UnionRows;
 struct ContactRow;
 
-/// What an interface came to.
+/// The data of an interface in a reduction.
 struct InterfaceReport
 {
-   std::string name;                 ///< that it was given
-   std::array<int, 2> bodies{0, -1}; ///< whose nodes it has, and whose face them
+   std::string name; ///< that it was given
+   std::array<int, 2> bodies{0,
+                             -1}; ///< the body that has the nodes, and the body that faces them
    Eigen::Index first = 0; ///< first of its nodes of the problem; tied: among the tied ones
    Eigen::Index nodes = 0; ///< number of them
-   bool tied = false;      ///< its nodes are none of the problem
+   bool tied = false;      ///< its nodes are not in the problem
    /// The nodes are those of Interface::second: forces on the first body are the opposite.
    bool of_second = false;
    /// n × 2, of the nodes; of surfaces ReducedProblem::position has them, and this and all of
@@ -31,9 +32,9 @@ struct InterfaceReport
    /// In space n × 9, of the nodes: the first tangent, the second one, the normal into the body
    /// that has them.
    Eigen::MatrixXd frames = {};
-   /// n × 2 each: where the nodes' forces act on the body that has the nodes, and on what faces
-   /// it. The first is the node's own place but on an element that is faced in part; the second
-   /// lies across a gap.
+   /// n × 2 each: the places where the nodes' forces act on the body that has the nodes, and on
+   /// the body that faces it. The first is the node's own place, except on an element that is
+   /// faced in part. The second lies on the other side of a gap.
    std::array<Eigen::MatrixX2d, 2> acts_at;
    Eigen::VectorXd weights; ///< of the nodes, see LineNode
    Eigen::VectorXd spacing; ///< of the nodes, see LineNode
@@ -44,8 +45,8 @@ struct InterfaceReport
    std::vector<Eigen::Vector2d> free_surface = {}; ///< nodes of the slave that nothing faces
    std::vector<Eigen::Vector2d> without_row = {};  ///< see above
    double left_out = 0;                            ///< Mortar::left_out
-   /// n, Mortar::chords: what the gap is off by, if it is that of the geometry; 0 of sides
-   /// whose elements match.
+   /// n, Mortar::chords: the error of the gap, if it follows from the geometry; 0 if the
+   /// elements of both sides match.
    Eigen::VectorXd chords = {};
    Eigen::VectorXd curved = {}; ///< n, Mortar::curved; likewise
    double arm = 0; ///< largest size of Mortar::arm: moment left by a normal force of 1
@@ -88,22 +89,22 @@ struct ObstacleMotion
 class Reduction
 {
 public:
-   ReducedProblem problem;                  ///< what is left to solve
+   ReducedProblem problem;                  ///< the problem to be solved
    std::vector<CondensedBody> bodies;       ///< as condensed, in the order given
    std::vector<InterfaceReport> interfaces; ///< in the order given
-   std::vector<CondensedBody> torsion;      ///< as many again if something twists, or none
+   std::vector<CondensedBody> torsion;      ///< the same bodies in torsion, or empty
    Counters counters;                       ///< sum over the bodies and all later recoveries
 
    /** Adds the circumferential components of axisymmetric bodies (their torsion bodies, in the
-       same order, each condensed to the same nodes): of one body v_θ = u_θ and q_θ the force on
-       it, positive with the twist; of several v_θ = u_θ of the body that has the nodes less
-       that of what faces it, q_θ the force on the former. At nodes that do not match u_θ is
-       taken from the other body as u_r is: a turn about the axis is exact. Load patterns of the
-       same name are one pattern. InputError unless the reduction is of as many axisymmetric
-       bodies without torsion, if nodes differ, or if in a union over interfaces a contact node
-       is held around the axis. */
+       same order, each condensed to the same nodes): for one body v_θ = u_θ, and q_θ is the
+       force on it, positive along the twist. For several bodies v_θ is u_θ of the body that has
+       the nodes less u_θ of the facing body, and q_θ is the force on the former. At nodes that
+       do not match u_θ is interpolated like u_r, so that a rotation about the axis is exact.
+       Load patterns of the same name are one pattern. InputError unless the reduction is of as
+       many axisymmetric bodies without torsion, if nodes differ, or if in a union over
+       interfaces a contact node is held around the axis. */
    void add_torsion(std::vector<CondensedBody> twisting);
-   /// The same of one body, or of two.
+   /// The same for one body, or for two.
    void add_torsion(CondensedBody body1, std::optional<CondensedBody> body2 = std::nullopt);
 
    /** A load pattern that moves rigid obstacles, each that of one interface. Displacements of
@@ -111,25 +112,25 @@ public:
        is linearised), and the conjugate of the pattern is the obstacles' reaction. Shanks must
        have been added before.
 
-       A load of prescribed displacements that has the name already is one load with it.
+       A load of prescribed displacements with the same name becomes one load with it.
 
        InputError if the name is empty or that of a load of forces, if an interface is between
       two bodies or tied, if a displacement is not finite, or if it moves along a component that
       is held (a plane of symmetry). */
    void add_obstacle_motion(const std::string &name,
                             const std::vector<ObstacleMotion> &motions);
-   /// The same of all obstacles of one body.
+   /// The same for all obstacles of one body.
    void add_obstacle_motion(const std::string &name, const ScalarField &ux,
                             const ScalarField &uy, const ScalarField &u_theta = 0.0);
 
    /** Rigid obstacles that are free to move, in one motion or several, each that of some
        interfaces, and take loads there: obstacles on which forces or moments act, guided or
-      not. Displacements of the reduced problem are relative to them, as of
-      add_obstacle_motion(). The load of a motion is a force on the obstacles that does work
-      `force` per unit multiplier and unit of the motion (a force along it, a moment about a
-      turn's centre), and its conjugate is how far they move, times `force`. A motion without a
-      name has no load. Loads of one name are one, those of motions here and forces that are
-      there already. Shanks must have been added before, prescribed motions after.
+       not. Displacements of the reduced problem are relative to them, as of
+       add_obstacle_motion(). The load of a motion is a force on the obstacles that does work
+       `force` per unit multiplier and unit of the motion (a force along it, a moment about a
+       turn's centre), and its conjugate is the motion, times `force`. A motion without a name
+       has no load. Loads with one name are one load: those of motions here, and forces that
+       exist already. Shanks must have been added before, prescribed motions after.
 
        InputError if a name is that of prescribed displacements, as of add_obstacle_motion(),
        if no motion is given, or if the bodies do not
@@ -143,10 +144,10 @@ public:
    /// See FreeMotion. Called once, with all motions of all obstacles that are free.
    void free_obstacles(const std::vector<FreeMotion> &motions);
 
-   /** A shank, or another spring that pulls two parts of the bodies together: `pattern` is a
-       load of forces on both that are each other's opposite, and becomes the pretension. With
-       N the multiplier of the forces that act, T that of the pretension and g the pattern's
-       conjugate (for forces that pull, how far the parts have come together),
+   /** A shank, or another spring that pulls two parts of the bodies together. `pattern` is a
+       load of equal and opposite forces on both parts, and becomes the pretension. With N the
+       multiplier of the acting forces, T the multiplier of the pretension and g the pattern's
+       conjugate (for forces that pull, the approach of the parts),
 
           N = T - stiffness · g.
 
@@ -166,8 +167,8 @@ public:
    Eigen::VectorXd tied_twisting(const Eigen::VectorXd &v,
                                  const Eigen::VectorXd &multipliers) const;
 
-   /** What contact nodes and ties put on body `b`: forces in x and y (r and z) on the nodes of
-       its line, n × 2; in space forces in x, y and z on those of its surface, n × 3.
+   /** Forces of contact nodes and ties on body `b`, in x and y (r and z) on the nodes of its
+       line, n × 2; in space forces in x, y and z on those of its surface, n × 3.
        @param q     tangential forces of the contact nodes; none without friction
        @param p     normal forces of the contact nodes
        @param tied  of tied_forces(); none where nothing is tied
@@ -175,8 +176,7 @@ public:
    Eigen::MatrixXd contact_forces(int b, const Eigen::VectorXd &q, const Eigen::VectorXd &p,
                                   const Eigen::VectorXd &tied = {}) const;
 
-   /** What contact nodes and ties put on body `b` around the axis: torques on the nodes of its
-       line.
+   /** Torques of contact nodes and ties on body `b` around the axis, on the nodes of its line.
        @param q     circumferential forces of the contact nodes, the second component of q
        @param tied  of tied_twisting(); none where nothing is tied
        InputError if nothing twists, if there is no such body, or for other sizes. */
@@ -185,8 +185,8 @@ public:
 
    /// Displacement of all true dofs of body `b`, for relative displacements v (of all
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
-   /// One solve with that body's factor. If two free bodies move together unresisted, the
-   /// common motion is the one of least squares zero.
+   /// One solve with that body's factor. If two free bodies can move together without
+   /// resistance, this common motion is zero in the mean (least squares).
    Eigen::VectorXd displacement(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &w,
                                 const Eigen::VectorXd &multipliers);
    /// Twist ψ = u_θ/r of all true dofs of torsion body `b`, for the same displacements v.
@@ -232,8 +232,8 @@ private:
    /// interfaces. InputError, which begins with `where`.
    Eigen::VectorXd displaced(const std::string &where,
                              const std::vector<ObstacleMotion> &motions) const;
-   /// What is added to the relative displacements {v; w} of the contact nodes where obstacles
-   /// move.
+   /// Contribution of moving obstacles to the relative displacements {v; w} of the contact
+   /// nodes.
    Eigen::VectorXd moved(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers) const;
    /// Displacements {v; w} of a rigid obstacle, one column a pattern of the problem; empty if
    /// it rests.
@@ -270,9 +270,10 @@ Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
     interface. Gap of the pairing, and of smooth curves that elements are chords of
     (ContactLine::off_curves()); it may be overwritten in the result. Frames (those of the
     interface's report) and weights of the nodes are the mean of both bodies'. A component that
-    one body holds is the other's alone; one that both hold is held in the problem. InputError
-    if both hold a normal one, if a common rigid motion of two free bodies is loaded, or if a
-    pattern is force-controlled in one and displacement-controlled in the other. */
+    is held in one body only follows the other body; one that is held in both is held in the
+    problem. InputError if both hold a normal one, if a common rigid motion of two free bodies
+    is loaded, or if a pattern is force-controlled in one and displacement-controlled in the
+    other. */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
 
 } // namespace cattaneo

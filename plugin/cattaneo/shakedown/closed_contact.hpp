@@ -13,9 +13,8 @@ namespace cattaneo
 
        K_cc - K_co K_oo⁻¹ K_oc,   f_c - K_co K_oo⁻¹ f_o,
 
-    and what is left is a contact of fewer nodes that is always closed. Whether the assumption
-    holds is for open_gaps to tell afterwards (and, for the closed nodes, the cone
-    condition). */
+    which leaves a contact of fewer nodes that is always closed. Afterwards open_gaps shows
+    whether the assumption holds (and, for the closed nodes, the cone condition). */
 struct ClosedContact
 {
    ReducedProblem reduced;           ///< of the closed nodes
@@ -32,7 +31,7 @@ struct ClosedContact
    Eigen::VectorXd open_gap;     ///< g of the open nodes
 };
 
-/// InputError if a node is named twice or does not exist, if none is closed, if a closed node
+/// InputError if a node is listed twice or does not exist, if none is closed, if a closed node
 /// has a gap, or if the open nodes' motion is not determined by the closed ones'.
 ClosedContact closed_contact(const ReducedProblem &problem,
                              const std::vector<Eigen::Index> &closed);

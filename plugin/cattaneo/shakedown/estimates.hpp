@@ -31,8 +31,8 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
                                const NodeList &nodes = {});
 
 /** Method 2 (thesis 4.3.1.2): a residual shear r that method 1 allows at its own f and that has
-    no resultant changes the pressure by M r, and (4.9) is evaluated again with p + M r. It
-    leaves open which r: the result is a range over all choices. One tangential component
+    no resultant changes the pressure by M r, and (4.9) is evaluated again with p + M r. The
+    choice of r is free, so the result is a range over all choices. One tangential component
     only. */
 struct Method2Estimate
 {

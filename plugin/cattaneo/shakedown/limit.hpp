@@ -12,14 +12,14 @@ namespace cattaneo
 {
 
 /** A shakedown limit by Melan's static theorem ([Melan 1936], thesis 4.3.2): is there a slip v,
-    constant in time, with which all nodes stick, closed (w = 0), throughout the load cycle?
-    Its bounds are proven for a contact whose nodes all stay closed. With nodes that open the
+    constant in time, with which all nodes stick, closed (w = 0), throughout the load cycle? Its
+    bounds are proven for a contact whose nodes all stay closed. With nodes that open the
     problem is different, and marches may shake down above the limit except at those nodes
     (transient.hpp). closed_contact is for contacts that are partly open throughout. The limit
     is the upper one, λ2: above it every start ends in cyclic slip; below it some start shakes
-    down, and all do if the problem is uncoupled (lower_limit.hpp). Where the stuck tractions
-    are singular, at the edges of contact, it may be the mesh that decides, and then the limit
-    falls with the spacing. */
+    down, and all do if the problem is uncoupled (lower_limit.hpp). If the limit is decided
+    where the stuck tractions are singular, at the edges of contact, it is a limit of the mesh,
+    and falls with the spacing. */
 struct LimitProblem
 {
    ReducedProblem reduced;  ///< without a gap, its friction is that of a load limit
@@ -36,9 +36,10 @@ LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle);
 enum class LimitStatus
 {
    certified,   ///< lower ≤ limit ≤ upper are proven and the gap is within the tolerance
-   bracketed,   ///< the bounds are proven, but the gap is wider than asked for
-   unlimited,   ///< a slip in proportion to the load factor, `ray`, holds any (proven; where
-                ///< forces touch their cones, to round-off and up to `lower`)
+   bracketed,   ///< the bounds are proven, but the gap is wider than requested
+   unlimited,   ///< no limit: a slip in proportion to the load factor, `ray`, keeps the contact
+                ///< stuck at any load factor (proven; where forces touch their cones, to
+                ///< round-off and up to `lower`)
    no_solution, ///< no slip keeps the contact stuck and closed under the constant loads or, of
                 ///< a friction limit, with any coefficient searched (proven by the mechanism)
    failed,      ///< the solver ended without a usable point
@@ -68,8 +69,8 @@ struct LimitSettings
    double tolerance = 1e-6;
    int max_iterations = 300; ///< of Ipopt, in one programme
    /// Load factors are searched up to this multiple of (friction × normal force) / shear. If
-   /// there is no limit up to there, a proof is sought that there is none, else the search goes
-   /// on.
+   /// there is no limit up to there, the program tries to prove that there is none. If it
+   /// cannot, the search goes on.
    double largest_factor = 1e4;
    /// The smallest friction coefficient is searched up to here.
    double largest_friction = 100;
@@ -86,12 +87,11 @@ struct LimitSettings
    void validate() const;
 };
 
-/** A limit with the bounds that prove it, and what it does not say: under which assumption it
-   is proven, of which starts it speaks, and whether the mesh decides it. statement() has all of
-    that in sentences. */
+/** A limit with its proven bounds, the assumption of the proof, the starts for which it holds,
+    and whether the mesh decides it. statement() has all of this in sentences. */
 struct LimitReport
 {
-   LimitStatus status = LimitStatus::failed; ///< what is known of the limit
+   LimitStatus status = LimitStatus::failed; ///< outcome of the search
    std::string message;                      ///< what is proven, in one sentence
    /// The safe side: `lower` of a load factor, infinite if it is unlimited, `upper` of a
    /// friction coefficient.
@@ -115,12 +115,12 @@ struct LimitReport
    double coupling = 0; ///< of the problem
    /// Slip changes the pressures: *some* start shakes down below the limit
    bool coupled = false;
-   /// The lower limit λ1 of a load limit, or a load factor that λ1 is proven not to be below:
-   /// there every start shakes down. NaN: nothing is known, or it was not asked for.
+   /// The lower limit λ1 of a load limit, or a proven lower bound of λ1. Below it every start
+   /// shakes down. NaN: it is not known, or was not requested.
    double every_start = std::numeric_limits<double>::quiet_NaN();
    std::string starts; ///< which starts shake down, in one sentence
-   /// Why the limit is one of this mesh only and not of the bodies, in one sentence; empty if
-   /// nothing shows that it is, see mesh_statement().
+   /// The reason why the limit belongs to this mesh only and not to the bodies, in one
+   /// sentence. Empty if there is no such reason, see mesh_statement().
    std::string of_the_mesh;
    int iterations = 0; ///< of Ipopt, summed over the programmes
    double seconds = 0; ///< wall time

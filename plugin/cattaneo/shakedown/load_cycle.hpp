@@ -31,8 +31,8 @@ struct LoadCycle
    /// The multipliers at every vertex, patterns × vertices.
    Eigen::MatrixXd multipliers(double load_factor) const;
 
-   /// A march through the points, then through so many cycles: through the vertices and back to
-   /// the first one, or to the point before them if the cycle starts there.
+   /// A load history through the points, then through so many cycles: through the vertices and
+   /// back to the first one, or to the point before them if the cycle starts there.
    LoadHistory history(double load_factor, std::vector<Eigen::VectorXd> opening,
                        bool from_opening, int cycles) const;
 

@@ -60,15 +60,16 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
     finite: the contact shakes down. p_low is linear in the loads, so the bound is one more
     limit programme, of an uncoupled contact with pressures p_low.
 
-    It is the best that pressures alone can prove. Where an admissible state has a node without
-    pressure, as the corners of a square punch on a similar half-plane above f = 0.6, no λ1 is
-    proven. The proof then sets some nodes apart. The inequality holds as long as these stick,
-    and their slip adds a term in proportion to it. Slip that never ends therefore includes slip
-    without end at one of them. Nothing is asked of q* there, and of their pressure only that
-    the contact is closed. Where slip does go on, marches show (find_counter_example). */
+    No better bound can be proven from pressures alone. Where an admissible state has a node
+    without pressure, as the corners of a square punch on a similar half-plane above f = 0.6, no
+    λ1 is proven. The proof then sets some nodes apart. The inequality holds as long as these
+    stick, and their slip adds a term in proportion to it. Slip that never ends therefore
+    includes slip without end at one of them. At these nodes there is no condition on q*, and on
+    the pressure only that the contact is closed. Where slip does go on, marches show
+    (find_counter_example). */
 struct LowerLimitReport
 {
-   LowerLimitKind kind = LowerLimitKind::none; ///< what is known
+   LowerLimitKind kind = LowerLimitKind::none; ///< kind of the result
    LimitStatus status = LimitStatus::failed;   ///< of the programme behind it
    std::string message;                        ///< what is proven, in one sentence
    double value = 0;                           ///< λ1, or a proven lower bound of it

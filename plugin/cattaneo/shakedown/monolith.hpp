@@ -8,9 +8,9 @@ namespace cattaneo
 
 /** The stuck contact (thesis 4.2): with v = w = 0 the contact forces are those of the load
     patterns themselves. Ratios are of nodal forces, which are also those of tractions recovered
-    with one weight a node. At a corner they do not converge with the mesh (the singular
-    traction's ratio does, the corner node's does not), so every function looks at a choice of
-    nodes only; empty means all. */
+    with one weight a node. At a corner they do not converge with the mesh (the ratio of the
+    singular tractions does, that of the corner node's forces does not). Every function
+    therefore has an argument with the nodes to be used; empty means all. */
 using NodeList = std::vector<Eigen::Index>;
 
 /// @a nodes, or all of them if it is empty. InputError if one does not exist.

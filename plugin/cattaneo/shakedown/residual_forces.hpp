@@ -20,7 +20,7 @@ struct ResidualForces
    Eigen::MatrixXd flexibility; ///< generalised inverse of A, c·n × c·n, symmetric
    Eigen::MatrixXd transfer;    ///< M = B flexibility, n × c·n, dimensionless
    Eigen::MatrixXd rigid;       ///< basis of the slips without force, c·n × k, unit columns
-   bool uncoupled = false;      ///< B is zero: slip leaves the pressure alone
+   bool uncoupled = false;      ///< B is zero: slip does not change the pressure
 };
 
 /// InputError if the problem has no tangential unknowns, has a gap (use absorb_gap), or if its

@@ -45,10 +45,10 @@ struct TransientSettings
 enum class TransientVerdict
 {
    shaken_down,     ///< the slip has ended
-   slips_and_opens, ///< ended but at nodes that open in every cycle and move as they do
+   slips_and_opens, ///< ended except at nodes that open and slip in every cycle
    cyclic_slip,     ///< a steady cycle with slip at nodes that stay closed
    still_slipping,  ///< neither steady nor ended after all cycles
-   no_equilibrium,  ///< the march ended early: status and message say why
+   no_equilibrium,  ///< the march ended early; status and message have the reason
    stopped          ///< it was asked to (Monitor::stop)
 };
 
@@ -69,17 +69,17 @@ struct TransientReport
    double event_time = 0;
    Eigen::VectorXd event_multipliers; ///< of the load patterns, at that time
    double load_factor = 0;            ///< λ at which was marched
-   TransientVerdict verdict = TransientVerdict::no_equilibrium; ///< what the slip came to
+   TransientVerdict verdict = TransientVerdict::no_equilibrium; ///< verdict on the slip
    std::vector<double> dissipation;                             ///< of each cycle, until steady
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:
    /// the largest ½ qᵀ A⁻¹ q over the vertices.
    double energy = 0;
-   /// The largest slip of a stuck contact that is let go, |A⁻¹ q| over the vertices, the scale
-   /// of `cycle_slip`.
+   /// The largest slip if a stuck contact loses all friction, |A⁻¹ q| over the vertices, the
+   /// scale of `cycle_slip`.
    double elastic_slip = 0;
-   /// Length of the slip path in the last cycle of each node that bears at some time of it,
-   /// size n. If the steady state is not known to have period 1, the longer one of the last two
-   /// cycles.
+   /// Length of the slip path in the last cycle, of each node that is in contact at some time
+   /// of it, size n. If the steady state is not known to have period 1, the longer one of the
+   /// last two cycles.
    Eigen::VectorXd cycle_slip;
    NodeList opened;        ///< nodes that are open at some time of the last cycle
    double opened_loss = 0; ///< dissipation at these in the last cycle
@@ -113,9 +113,10 @@ struct TransientBracket
 TransientBracket transient_bracket(const LimitProblem &problem, const LimitReport &limit,
                                    double margin, const TransientSettings &settings = {});
 
-/** Search for a start that does not shake down below the upper limit: what is observed of the
-    lower limit λ1. Halves the interval between the proven lower bound and the upper limit, each
-    time marching from multiples of the optimal slip and from random admissible-sized ones. */
+/** Search for a start that does not shake down below the upper limit: an observed upper
+    estimate of the lower limit λ1. Halves the interval between the proven lower bound and the
+    upper limit, each time marching from multiples of the optimal slip and from random slips of
+    the same size. */
 struct CounterExampleSettings
 {
    int starts = 10;   ///< random starts a load factor, besides multiples of the optimal slip

@@ -12,8 +12,8 @@ namespace cattaneo
        depth rate = k (p - p_th)₊ |slip rate|,
 
     p is the pressure (nodal force over consistent weight). k is that of both bodies together,
-    which share the depth in the ratio k₁ : k₂ of their own. With `of_energy` k belongs to the
-    energy that friction takes per area, and f k stands in the place of k. Worn material
+    which share the depth in the ratio k₁ : k₂ of their own. With `of_energy` k is the wear per
+    energy that friction loses per area, so that f k takes the place of k. Worn material
     disappears. There is no debris. */
 struct WearLaw
 {

@@ -10,22 +10,22 @@
 namespace cattaneo
 {
 
-/// The state of a wearing contact: all that its future depends on.
+/// The state of a wearing contact: all data on which its future depends.
 struct WearState
 {
    /// With the slip and the forces of the worn contact, whose gap is g + depth.
    ContactState contact;
    Eigen::VectorXd depth;       ///< worn off at each node, size n, ≥ 0: the gap is g + depth
-   Eigen::VectorXd dissipation; ///< energy that friction took at each node so far, size n
+   Eigen::VectorXd dissipation; ///< energy lost by friction at each node so far, size n
    double cycles = 0;           ///< so far, marched or jumped over
-   /// The contact as the last cycle left it, before the gap took in what that cycle wore off:
-   /// the march goes on from it. None: from `contact`.
+   /// The contact at the end of the last cycle, before its wear was added to the gap. The march
+   /// continues from it. Empty: from `contact`.
    std::optional<ContactState> marched = std::nullopt;
 
    /// Unworn, before any load.
    static WearState virgin(const ReducedProblem &problem);
-   /// InputError if it is none of the problem (its forces are not those of its displacements
-   /// and loads), or depth or dissipation is negative.
+   /// InputError if it belongs to another problem (its forces do not follow from its
+   /// displacements and loads), or if depth or dissipation is negative.
    void validate(const ReducedProblem &problem) const;
 };
 
@@ -34,7 +34,7 @@ void save(const WearState &state, const std::string &file);
 /// Reads what save() wrote.
 WearState load_wear_state(const std::string &file);
 
-/// When the gap takes in what has worn off.
+/// When wear is added to the gap.
 enum class GapUpdate
 {
    cycle, ///< at the end of each cycle
@@ -46,13 +46,13 @@ struct WearSettings
 {
    MarchSettings march; ///< of each cycle. Its monitor watches the whole computation and is
                         ///< asked between two cycles. A steady state of slip does not end it
-   GapUpdate update = GapUpdate::cycle; ///< when the gap follows
+   GapUpdate update = GapUpdate::cycle; ///< when wear is added to the gap
    /** Largest estimated error of the depths because cycles are skipped, at each recorded cycle,
        as a share of the largest depth (see WearReport::error). 0: every cycle is marched, as
        with GapUpdate::piece. Allowed: from 1e-8 to 0.1. */
    double tolerance = 0;
-   /// Is the observer called for what was marched or jumped over between these two numbers of
-   /// cycles? Empty: always.
+   /// Is the observer called for a cycle or jump between these two numbers of cycles? Empty:
+   /// always.
    std::function<bool(double from, double to)> observed;
    /// Wear is final, and the march ends, when a cycle adds less than this share of the largest
    /// depth so far. 0: the march goes on.
@@ -72,8 +72,9 @@ struct WearRecord
    double covered = 1;     ///< how many it covers
    double volume = 0;      ///< worn off so far
    double depth = 0;       ///< largest so far
-   double dissipation = 0; ///< energy that friction took so far
-   double loss = 0;  ///< of it in the last cycle; after a jump, in a cycle of the worn contact
+   double dissipation = 0; ///< energy lost by friction so far
+   double loss =
+      0; ///< energy lost in the last cycle; after a jump, in a cycle of the worn contact
    double error = 0; ///< estimate of the largest error of depth so far, by all jumps
 };
 
@@ -85,17 +86,17 @@ struct WearReport
    MarchReport last; ///< of the last cycle marched: where and why it ended, if it did
    /// Cycles marched to their end, also those that only look where a jump leads
    long marched = 0;
-   long jumps = 0; ///< over cycles that were not marched
+   long jumps = 0; ///< number of jumps over cycles
    /** Estimate of the largest error of depth at the end that comes from jumps, 0 without jumps.
        It is the largest distance so far between this computation and one whose jumps are twice
        as long, or half of the errors of single jumps if that is more. The errors that both may
        share are added. It includes the growth of errors of early jumps. Infinite: the wear is
        too unstable for an estimate, as `remark` says. */
    double error = 0;
-   /// Whether depths are estimated to be right to WearSettings::tolerance.
+   /// Is the estimated error of depths within WearSettings::tolerance?
    bool reached = true;
-   /// Where errors of jumps grew, and where no equilibrium was found at the worn gap, so that
-   /// the contact handed out is as the last cycle left it; empty otherwise.
+   /// A remark if errors of jumps grew, or if no equilibrium was found at the worn gap, so that
+   /// the returned contact is that at the end of the last cycle. Empty otherwise.
    std::string remark;
    std::vector<WearRecord> records; ///< of every cycle that was marched and every jump
    /** Largest number of cycles that may share one update of the gap: the explicit update
@@ -106,10 +107,10 @@ struct WearReport
    /// Cycles so severe (explicit_limit below 2) that their own update was implicit. k is so
    /// large that one cycle wears off as much as the contact is compressed.
    long implicit_cycles = 0;
-   double steady_cycle = 0; ///< first of the cycles that wear alike; 0: none
+   double steady_cycle = 0; ///< first of the cycles with equal wear; 0: none
    double final_cycle = 0;  ///< at which wear ended; 0: it has not ended
    /// Ends of the line that the contact reached in any cycle although the bodies go on there:
-   /// what is worn is too little then.
+   /// the wear is then too small.
    std::vector<CutOffContact> cut_off;
    Counters counters;  ///< of all marches
    double seconds = 0; ///< wall time
@@ -125,10 +126,10 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
                                                  const Eigen::VectorXd &depth)>;
 
 /** Wears a contact: marches the opening part of a history and then its cycle, `cycles` times
-    over all (history.cycles is not asked), and takes off what each cycle wears.
+    over all (history.cycles is not asked), and adds the wear of each cycle to the gap.
 
     Every marched cycle is exact along its path, see worn_depth(). If k and f are uniform and
-    there is no threshold, the worn volume is k/f times the energy that friction took, at every
+    there is no threshold, the worn volume is k/f times the energy lost by friction, at every
     moment and to round-off. This also holds where cycles are jumped over, because their energy
     is computed from the volume.
 
@@ -146,8 +147,8 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
     largest wear of a marched cycle, or less than that number times the smallest. With
     GapUpdate::piece all cycles are marched.
 
-    States are handed out with the gap worn: after a jump a cycle is marched there, and after a
-    marched cycle the contact takes in what that cycle has worn off, under the same loads.
+    The returned states belong to the worn gap: after a jump a cycle is marched there, and after
+    a marched cycle the contact settles at the worn gap under the same loads.
 
     Depth must be small against the contact: frames and weights stay those of the unworn bodies.
 

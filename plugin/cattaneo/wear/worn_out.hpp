@@ -28,16 +28,16 @@ struct WornOut
 };
 
 /** The fully worn state of partial slip, without the cycles that lead there. Slipping nodes
-    carry nothing and sticking nodes keep their place, which is one linear problem at each point
-    of the cycle. The depth is the largest overlap at any of these points.
+    carry no force and sticking nodes keep their place, which is one linear problem at each
+    point of the cycle. The depth is the largest overlap at any of these points.
 
     The nodes that stick are those of the unworn cycle. Where A = C and B = 0 (half-planes of
     one material) and pressures do not vary in the cycle they stay the same while the surfaces
     wear [Ciavarella 1999]. Otherwise the worn contact is marched. Nodes that then slip under
     pressure, or open, are left out, and the problem is solved again with the slip that is now
     locked in. This ends when a cycle takes no more than 1e-8 of the energy of the unworn one.
-    That is a state in which wear ends; the one that a march comes to may be another where nodes
-    stick that it finds worn.
+    This is one state in which wear ends. A march may end in another one, if it has worn nodes
+    that stick here.
 
     Wear is that of any law without a threshold: the final state does not depend on k, as long
     as k > 0 wherever a node slips.
