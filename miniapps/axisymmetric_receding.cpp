@@ -8,17 +8,18 @@
 //  contact without friction, is the torque of steady spinning. Units t = p0 = E = 1: rotations
 //  are in p0/E, torques in p0 t³ and over the whole circumference.
 //
-//  Sample runs:  axisymmetric_receding
-//                axisymmetric_receding -unload "0.9 0.5 0.3 0.1" -spacing 0.04
-//                axisymmetric_receding -torque "0.3 0.5 0.7" -spacing 0.04
-//                axisymmetric_receding -torque "0.5 0.9" -twist traction -spacing 0.05
-//                axisymmetric_receding -cycles 3 -amplitude 0.6 -spacing 0.05 -steps 40
-//                axisymmetric_receding -bonded "2.1 3.75 4.25 4.7" -map "0.5 1 2 3 4"
-//                axisymmetric_receding -critical "1 3 5"
-//                axisymmetric_receding -map "0.5 2.5" -map-friction "0.8 0.9" -spacing 0.05
-//                axisymmetric_receding -critical 8
-//                axisymmetric_receding -cycle-to 0.5 -load-cycles 6 -steps 20 -spacing 0.05
-//                axisymmetric_receding -domain 100 -spacing 0.04
+//  Sample runs:
+//    axisymmetric_receding
+//    axisymmetric_receding --unload "0.9 0.5 0.3 0.1" --spacing 0.04
+//    axisymmetric_receding --torque "0.3 0.5 0.7" --spacing 0.04
+//    axisymmetric_receding --torque "0.5 0.9" --twist traction --spacing 0.05
+//    axisymmetric_receding --twist-cycles 3 --amplitude 0.6 --spacing 0.05 --increments 40
+//    axisymmetric_receding --bonded "2.1 3.75 4.25 4.7" --map-load-radius "0.5 1 2 3 4"
+//    axisymmetric_receding --critical "1 3 5"
+//    axisymmetric_receding --map-load-radius "0.5 2.5" --map-friction "0.8 0.9" --spacing 0.05
+//    axisymmetric_receding --critical 8
+//    axisymmetric_receding --cycle-to 0.5 --cycles 6 --increments 20 --spacing 0.05
+//    axisymmetric_receding --domain 100 --spacing 0.04
 
 #include "axisymmetric_receding/disc_torsion.hpp"
 
@@ -195,6 +196,7 @@ void axisymmetric_receding(Study &study)
    double amplitude = 0.5;
    int cycles = 0, load_cycles = 100;
    bool critical_bonded = false;
+   study.options().group("The contact");
    study.option(&options.disc_radius, "disc-radius", "b, in t.");
    study.option(&disc.a, "load-radius", "a, in t.");
    study.option(&disc.f, "friction", "Coefficient of friction (0: no tangential unknowns).",
@@ -203,11 +205,13 @@ void axisymmetric_receding(Study &study)
    study.option(&obstacle, "obstacle",
                 "Body below the disc: half-plane, which is here an axisymmetric half-space.",
                 {"half-plane"});
+   study.options().group("The mesh");
    study.option(&options.domain, "domain", domain_help);
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.spacing, "spacing",
                 "Distance of the contact nodes, in t (thickness of the disc).",
                 above_up_to(0, 0.5));
+   study.options().group("Pressing");
    study.option(
       &on_the_way, "load-levels",
       "Loading: fractions of the full load P0 at which tractions are drawn (empty: none).",
@@ -219,7 +223,8 @@ void axisymmetric_receding(Study &study)
    study.option(&cycled, "cycle-to",
                 "Load cycles between P0 and less: the lowest P/P0 of each (empty: none).",
                 between(0, 1));
-   study.option(&load_cycles, "load-cycles", "Largest number of load cycles.", at_least(1));
+   study.option(&load_cycles, "cycles", "Largest number of load cycles.", at_least(1));
+   study.options().group("Torsion");
    study.option(&torques, "torque",
                 "Torsion: torques at which results are printed, over the torque of steady "
                 "spinning T_s (empty: none).",
@@ -230,13 +235,15 @@ void axisymmetric_receding(Study &study)
                 "What twists: rotation of the top, of its loaded part or of the rim, or "
                 "traction, a torque, on the loaded part.",
                 {"top", "loaded", "rim", "traction"});
-   study.option(&cycles, "cycles", "Torsion: cycles to and fro.", not_negative);
+   study.option(&cycles, "twist-cycles", "Torsion: cycles to and fro.", not_negative);
    study.option(&amplitude, "amplitude",
                 "Torsion: amplitude of the torque of the cycles, in T_s.", above_up_to(0, 1));
-   study.option(&disc.steps, "steps",
+   study.options().group("Pressing");
+   study.option(&disc.steps, "increments",
                 "Number of steps from zero to the full load P0, or to T_s.", at_least(2));
+   study.options().group("More results");
    study.option(&bonded_a, "bonded", "Bonded disc: list of a to report.");
-   study.option(&map_a, "map", "Map of c and d: list of a (empty: none).");
+   study.option(&map_a, "map-load-radius", "Map of c and d: list of a (empty: none).");
    study.option(&map_f, "map-friction", "Map of c and d: list of f.", positive);
    study.option(&discs, "critical", "Critical radius of the load: list of b (empty: none).",
                 at_least(1));
@@ -244,14 +251,17 @@ void axisymmetric_receding(Study &study)
                 not_negative);
    study.option(&critical_bonded, "critical-bonded",
                 "Critical radius of the load: also for the bonded disc (ill-conditioned).");
+   study.options().renamed(
+      {{"steps", "increments"}, {"load-cycles", "cycles"}, {"map", "map-load-radius"}});
    study.parse();
    const bool twists = !torques.empty() || !rotations.empty() || cycles > 0;
-   study.only_if(!map_a.empty(), {"map-friction"}, "goes with --map");
+   study.only_if(!map_a.empty(), {"map-friction"}, "goes with --map-load-radius");
    study.only_if(!discs.empty(), {"critical-friction", "critical-bonded"},
                  "goes with --critical");
-   study.only_if(!cycled.empty(), {"load-cycles"}, "goes with --cycle-to");
-   study.only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
-   study.only_if(twists, {"twist"}, "goes with --torque, --rotation or --cycles");
+   study.only_if(!cycled.empty(), {"cycles"},
+                 "goes with --cycle-to; cycles of torsion are --twist-cycles");
+   study.only_if(cycles > 0, {"amplitude"}, "goes with --twist-cycles");
+   study.only_if(twists, {"twist"}, "goes with --torque, --rotation or --twist-cycles");
    study.results["load_radius"] = disc.a;
    require(map_a.empty() || !map_f.empty(),
            "option --map-friction is empty, must list the coefficients of the map");
@@ -268,7 +278,8 @@ void axisymmetric_receding(Study &study)
    std::sort(levels.rbegin(), levels.rend());
    std::sort(torques.begin(), torques.end());
    std::sort(rotations.begin(), rotations.end());
-   for (const auto &[option, list] : {std::pair{"--bonded", bonded_a}, {"--map", map_a}})
+   for (const auto &[option, list] :
+        {std::pair{"--bonded", bonded_a}, {"--map-load-radius", map_a}})
    {
       for (double a : list)
       {

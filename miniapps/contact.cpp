@@ -5,14 +5,15 @@
 //  bolts and loads: docs/contact.md describes it. Units are the user's: forces are per unit
 //  thickness.
 //
-//  Sample runs:  contact -case meshes/bolted_joint.json
-//                contact -case meshes/pin.json
-//                contact -case meshes/dovetail.json
-//                contact -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
-//                contact -case meshes/rounded_punch.json --check --plot check.png
-//                contact -case meshes/punch_on_half_plane.json
-//                contact -case meshes/calculix/laps.json
-//                contact -case meshes/dovetail.json -set interfaces.flank.friction=0
+//  Sample runs:
+//    contact --case meshes/bolted_joint.json
+//    contact --case meshes/pin.json
+//    contact --case meshes/dovetail.json
+//    contact --case meshes/rounded_punch.json --cycles 2 --edges "1 2 3"
+//    contact --case meshes/rounded_punch.json --check --plot check.png
+//    contact --case meshes/punch_on_half_plane.json
+//    contact --case meshes/calculix/laps.json
+//    contact --case meshes/dovetail.json --set interfaces.flank.friction=0
 
 #include "common/contact_edges.hpp"
 #include "common/own_history.hpp"

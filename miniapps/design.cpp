@@ -4,22 +4,24 @@
 //  on a half-plane (a = E' = 1), flat at first, is given a gap: free at every node, a crown of
 //  few powers of x/a, or rounded, flat for |x| < b and of radius R beyond. Wanted is the least
 //  of the largest pressures under all loads, which for one of them is the punch of uniform
-//  pressure; or, in a cycle of Q between ±f P times --shear, the least or the most energy lost,
-//  or the least of what a node loses at most per area (energy, a criterion of fretting). Under
-//  bounds, and limits of curvature. With --coat not the gap is chosen but friction in zones; of
-//  a saved reduced problem (--reduced, in its own units, through a history of your own) by
+//  pressure; or, in a cycle of Q between ±f P times --amplitude, the least or the most energy
+//  lost, or the least of what a node loses at most per area (energy, a criterion of fretting).
+//  Under bounds, and limits of curvature. With --coat not the gap is chosen but friction in
+//  zones; of a saved reduced problem (--reduced, in its own units, through a history of your
+//  own) by
 //  --choose also loads, whose sum stays: the pretensions of a row of bolts, and where there are
 //  bolts at all. --save writes the designed problem. An optimum is one among its neighbours;
 //  --starts begins elsewhere too: docs/design.md.
 //
-//  Sample runs:  design
-//                design --scene punch --profile crown --shear 0.5 --lines 8
-//                design --profile crown --loads "0.3 1" --weights "2 1" --lines 24
-//                design --curvature 0.3 --nodes 41
-//                design --profile crown --powers 2 --goal damping --shear 0.8 --lines 8
-//                design --profile rounded --lines 24
-//                design --scene punch --coat "0.2 0.8" --goal loss --shear 0.5 --lines 8
-//                design --case problems/bolt_row.case.json
+//  Sample runs:
+//    design
+//    design --scene punch --profile crown --amplitude 0.5 --lines 8
+//    design --profile crown --loads "0.3 1" --weights "2 1" --lines 24
+//    design --curvature 0.3 --nodes 41
+//    design --profile crown --powers 2 --goal damping --amplitude 0.8 --lines 8
+//    design --profile rounded --lines 24
+//    design --scene punch --coat "0.2 0.8" --goal loss --amplitude 0.5 --lines 8
+//    design --case problems/bolt_row.case.json
 
 #include "common/run.hpp"
 #include "common/watch.hpp"
@@ -99,8 +101,10 @@ void design_contact(Study &study)
    SteppingOptions stepping;
    int lines = 0, starts = 1;
    DesignSettings settings;
+   study.options().group("The contact");
    study.option(&chosen.scene, "scene", "Pad on a half-plane, or square punch on one.",
                 {"pad", "punch"});
+   study.options().group("Choice and goal");
    study.option(&choice.profile, "profile",
                 "Shape of the gap: free at each node, a sum of few powers (crown), or flat "
                 "with rounded ends.",
@@ -112,12 +116,15 @@ void design_contact(Study &study)
       "pressure: smallest peak pressure. For a cycle: loss, the smallest energy loss; damping, "
       "the largest; or energy, the smallest peak of the loss per area.",
       {"pressure", "loss", "damping", "energy"});
+   study.options().group("The loads");
    study.option(&chosen.loads, "loads", "Normal load P of each case.", positive);
    study.option(&chosen.weights, "weights", "Weight of each case; default: 1.", positive);
-   study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", at_least_below(0, 1));
+   study.option(&chosen.shear, "amplitude", "Amplitude of Q/fP.", at_least_below(0, 1));
+   study.options().group("The contact");
    study.option(&chosen.friction, "friction",
                 "Coefficient of friction; default: 0.3, with --reduced that of the file.",
                 positive);
+   study.options().group("Choice and goal");
    study.option(&choice.most, "most",
                 "Largest change of a gap relative to the node that touches (for held bodies: "
                 "largest addition to it), largest part of each power of the crown, or largest "
@@ -125,17 +132,21 @@ void design_contact(Study &study)
                 positive);
    study.option(&choice.curvature, "curvature",
                 "Largest curvature of the gap; default: no limit.", positive);
+   study.options().group("The contact");
    study.option(&chosen.nodes, "nodes",
                 "Number of contact nodes, one more than a multiple of 4.", at_least(9));
+   study.options().group("The loads");
    study.option(&settings.march.increments, "increments",
                 "Load increments between two points of the history.", at_least(1));
    stepping.declare(study);
-   study.option(&settings.tolerance, "tolerance", "Tolerance of the conditions of optimality.",
-                between(0, 1));
+   study.options().group("The search");
+   study.option(&settings.tolerance, "optimality-error",
+                "Tolerance of the conditions of optimality.", between(0, 1));
    study.option(&lines, "lines", "Steps of a sweep along each variable.", at_least(0));
    study.option(&starts, "starts",
                 "Number of searches from different places; the best result is kept.",
                 at_least(1));
+   study.options().group("A saved problem in place of the scenes");
    study.option(&chosen.file, "reduced", "Reduced problem, in place of the scenes.",
                 Text::input);
    study.option(&chosen.history, "history",
@@ -147,18 +158,20 @@ void design_contact(Study &study)
    study.option(&choice.loads, "choose",
                 "With --reduced: loads that are chosen in place of the gap, as 'bolt 1; bolt "
                 "2'. Their sum stays the same, and none falls below zero.");
+   study.options().group("Choice and goal");
    study.option(&choice.coat, "coat",
                 "Chooses the friction in place of the gap, between these two numbers.",
                 not_negative);
    study.option(&choice.zones, "zones",
                 "With --coat: number of zones of equal length on each line.", at_least(1));
+   study.options().renamed({{"shear", "amplitude"}, {"tolerance", "optimality-error"}});
    study.parse();
    stepping.set(settings.march);
    const bool saved = !chosen.file.empty(), own_gap = choice.what() == "gap",
               free = own_gap && choice.profile == "free";
    study.only_if(saved, {"history", "from"}, "is of --reduced");
    study.only_if(saved, {"choose"}, "is of --reduced, the scenes have no loads to choose");
-   study.only_if(!saved, {"scene", "loads", "weights", "shear", "nodes"},
+   study.only_if(!saved, {"scene", "loads", "weights", "amplitude", "nodes"},
                  "is of the scenes, --reduced has its own contact and --history");
    study.only_if(own_gap, {"profile", "curvature"},
                  "is of a gap that is chosen, --choose and --coat take its place");
@@ -172,7 +185,7 @@ void design_contact(Study &study)
            "option --history is empty, must be the loads of --reduced");
    require(!chosen.cycles() || chosen.shear > 0 || !std::isnan(chosen.from),
            "option --goal is ", chosen.goal,
-           ", which needs a cycle: give --shear, or with --reduced the option --from");
+           ", which needs a cycle: give --amplitude, or with --reduced the option --from");
    if (chosen.weights.empty()) { chosen.weights.assign(chosen.loads.size(), 1.0); }
    require(chosen.weights.size() == chosen.loads.size(), "option --weights has ",
            chosen.weights.size(), " entries, --loads has ", chosen.loads.size());

@@ -11,16 +11,20 @@
 //
 //  Units: N, mm, MPa; forces per mm of thickness. Material data in GPa, MPa and MPa sqrt(m).
 //
-//  Sample runs:  fretting
-//                fretting -P 400 -r 50 -Q 60 -bs 80 -m Al -f 0.7
-//                fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V
-//                fretting -p kn -kn 4000 -kt 20 -f 0.6 -E 115 -m Ti6Al4V
-//                fretting -p fe -Q 50
-//                fretting -p fe -Q 50 -bs 30 -nodes 201
-//                fretting -p fe -Q 100 --averaging-depth 0.1
-//                fretting -p fe -r 10 -b 2 -P 1000 -Q 100 -m Ti6Al4V -nodes 201
-//                fretting -Q 5 -bs 10 -plot fretting.png -csv fretting
-//                fretting -plot fretting.svg -csv f -rec miniapps/data/fretting_records.csv
+//  Sample runs:
+//    fretting
+//    fretting --normal-load 400 --radius 50 --shear-load 60 --bulk 80 --material Al
+//       --friction 0.7
+//    fretting --pad flat-rounded --radius 3 --flat 3 --normal-load 1000 --shear-load 20
+//       --bulk 20 --material Ti6Al4V
+//    fretting --pad kn --k-n 4000 --k-t 20 --friction 0.6 --young 115 --material Ti6Al4V
+//    fretting --pad fe --shear-load 50
+//    fretting --pad fe --shear-load 50 --bulk 30 --nodes 201
+//    fretting --pad fe --shear-load 100 --averaging-depth 0.1
+//    fretting --pad fe --radius 10 --flat 2 --normal-load 1000 --shear-load 100
+//       --material Ti6Al4V --nodes 201
+//    fretting --shear-load 5 --bulk 10 --plot fretting.png --csv fretting
+//    fretting --plot fretting.svg --csv f --records miniapps/data/fretting_records.csv
 
 #include "common/shipped.hpp"
 #include "fretting/critical_planes.hpp"
@@ -68,66 +72,97 @@ void assess_pad(Study &study)
    PlaneWeights weights;
    double depth = none, young = none, poisson = none, threshold = none, limit = none,
           yield = none;
+   study.options().group("The pad");
    study.option(
-      &pad.kind, {"p", "pad"},
+      &pad.kind, "pad",
       "hertz (cylinder on flat), flat-rounded, fe (either by finite elements), or kn (K_N "
       "and K_T given).",
       {"hertz", "flat-rounded", "fe", "kn"});
-   study.option(&pad.radius, {"r", "radius"}, "Radius of the pad or of its edges, mm.");
-   study.option(&pad.flat, {"b", "flat"}, "Half width of the flat, mm (flat-rounded, fe).");
-   study.option(&pad.normal, {"P", "normal-load"},
-                "Normal force, N/mm, constant (not for kn).");
-   study.option(&pad.shear, {"Q", "shear-load"},
+   study.option(&pad.radius, "radius", "Radius of the pad or of its edges, mm.");
+   study.option(&pad.flat, "flat", "Half width of the flat, mm (flat-rounded, fe).");
+   study.options().group("The loads");
+   study.option(&pad.normal, "normal-load", "Normal force, N/mm, constant (not for kn).");
+   study.option(&pad.shear, "shear-load",
                 "Shear force on the specimen at peak load, N/mm (not for kn).");
    study.option(
-      &pad.bulk, {"bs", "bulk"},
+      &pad.bulk, "bulk",
       "Bulk stress in the specimen at peak load, MPa (default: none, with a remark).");
-   study.option(&pad.bulk_pad, {"bp", "bulk-pad"}, "Bulk stress in the pad at peak load, MPa.");
-   study.option(&pad.load_ratio, {"lr", "load-ratio"},
+   study.option(&pad.bulk_pad, "bulk-pad", "Bulk stress in the pad at peak load, MPa.");
+   study.option(&pad.load_ratio, "load-ratio",
                 "Load ratio R of shear and bulk stress, least over peak value, -1 <= R < 1.");
-   study.option(&pad.friction, {"f", "friction"},
+   study.option(&pad.friction, "friction",
                 "Friction coefficient (default: middle of the material's interval).", positive);
-   study.option(&pad.k_n, {"kn", "k-n"}, "K_N in MPa/sqrt(mm) (pad kn).");
-   study.option(&pad.k_t, {"kt", "k-t"}, "K_T at peak load in MPa sqrt(mm) (pad kn).");
+   study.options().group("The pad");
+   study.option(&pad.k_n, "k-n", "K_N in MPa/sqrt(mm) (pad kn).");
+   study.option(&pad.k_t, "k-t", "K_T at peak load in MPa sqrt(mm) (pad kn).");
    study.option(
-      &pad.half_width, {"a", "half-width"},
+      &pad.half_width, "half-width",
       "Half width of the contact, mm (pad kn; used only for the checks of validity).");
+   study.options().group("Finite elements");
    study.option(&pad.nodes, "nodes",
                 "Contact nodes (pad fe); of a pad with a flat the nodes of its two edges, to "
                 "which the nodes between are added.");
    study.option(&pad.order, "order", "Order of the elements (pad fe).", within(1, 8));
    study.option(
-      &depth, {"ad", "averaging-depth"},
+      &depth, "averaging-depth",
       "Evaluates criteria on critical planes along the surface, with stresses averaged over "
       "this depth in mm (pad fe; from the spacing of its nodes to the half-width of contact).",
       positive);
+   study.options().group("The criteria");
    study.option(&weights.findley, "findley",
                 "k of Findley's criterion (with --averaging-depth).", not_negative);
    study.option(&weights.fatemi_socie, "fatemi-socie",
                 "k of Fatemi and Socie's (with --averaging-depth).", not_negative);
-   study.option(&material, {"m", "material"}, "Name of a material record.");
-   study.option(&material_file, {"mf", "material-file"}, "File of material records, JSON.",
+   study.options().group("The material");
+   study.option(&material, "material", "Name of a material record.");
+   study.option(&material_file, "material-file", "File of material records, JSON.",
                 Text::input);
-   study.option(&young, {"E", "young"}, "Young's modulus, GPa (default: the record's).",
+   study.option(&young, "young", "Young's modulus, GPa (default: the record's).",
                 Check{[](double E) { return E > 0 && E < 2000; },
                       "must be positive and below 2000 (GPa, not MPa)"});
-   study.option(&poisson, {"nu", "poisson"}, "Poisson's ratio (default: the record's).");
-   study.option(&threshold, {"kth", "threshold"},
+   study.option(&poisson, "poisson", "Poisson's ratio (default: the record's).");
+   study.option(&threshold, "threshold",
                 "Threshold dK_th, MPa sqrt(m), a range or an amplitude like the fatigue limit.",
                 positive);
-   study.option(&limit, {"sfl", "fatigue-limit"}, "Plain fatigue limit, MPa.");
-   study.option(&yield, {"k", "shear-yield"}, "Yield stress in pure shear, MPa.");
-   study.option(&pad.plane_stress, {"ps", "plane-stress", "no-ps", "plane-strain"},
+   study.option(&limit, "fatigue-limit", "Plain fatigue limit, MPa.");
+   study.option(&yield, "shear-yield", "Yield stress in pure shear, MPa.");
+   study.option(&pad.plane_stress, {"plane-stress", "plane-strain"},
                 "Plane stress or plane strain.");
-   study.option(&criterion, {"c", "criterion"},
+   study.options().group("The criteria");
+   study.option(&criterion, "criterion",
                 "Part of K_I that drives the crack: open (the part of the cycle in which it is "
                 "open), range, or half-range.",
                 {"open", "range", "half-range"});
-   study.option(&records, {"rec", "records"},
+   study.option(&records, "records",
                 "CSV file of tests (P, Q, material, ..., cycles, runout) with which the "
                 "measures are compared.",
                 Text::input);
-   study.parse("j");
+   study.options().renamed({{"p", "pad"},
+                            {"r", "radius"},
+                            {"b", "flat"},
+                            {"P", "normal-load"},
+                            {"Q", "shear-load"},
+                            {"bs", "bulk"},
+                            {"bp", "bulk-pad"},
+                            {"lr", "load-ratio"},
+                            {"f", "friction"},
+                            {"kn", "k-n"},
+                            {"kt", "k-t"},
+                            {"a", "half-width"},
+                            {"ad", "averaging-depth"},
+                            {"m", "material"},
+                            {"mf", "material-file"},
+                            {"E", "young"},
+                            {"nu", "poisson"},
+                            {"kth", "threshold"},
+                            {"sfl", "fatigue-limit"},
+                            {"k", "shear-yield"},
+                            {"ps", "plane-stress"},
+                            {"no-ps", "plane-strain"},
+                            {"c", "criterion"},
+                            {"rec", "records"},
+                            {"j", "json"}});
+   study.parse();
    require(!study.options().says("check"), "option --check: this run has no meshes to show");
    FrettingSettings criteria;
    criteria.criterion = criteria_by_name.at(criterion);

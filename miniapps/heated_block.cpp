@@ -10,10 +10,11 @@
 //
 //  With MPI mesh and matrices are distributed.
 //
-//  Sample runs:  heated_block
-//                heated_block -g 0.001 -o 1 -nu 0.2
-//                heated_block -g 0.01
-//                heated_block -f 0.3 -paraview heated
+//  Sample runs:
+//    heated_block
+//    heated_block -g 0.001 -o 1 -nu 0.2
+//    heated_block -g 0.01
+//    heated_block -f 0.3 -paraview heated
 
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/views.hpp>

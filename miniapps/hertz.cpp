@@ -6,12 +6,13 @@
 //  computed pressure and shear are compared with the closed forms node by node; on the block
 //  the contact is coupled and truly deviates from them.
 //
-//  Sample runs:  hertz
-//                hertz -domain 1e4
-//                hertz -order 1
-//                hertz -shear "0.3 0.6 0.9"
-//                hertz -body block -ratio 0.8 -shear none
-//                hertz -body block -shear none
+//  Sample runs:
+//    hertz
+//    hertz --domain 1e4
+//    hertz --order 1
+//    hertz --shear "0.3 0.6 0.9"
+//    hertz --body block --ratio 0.8 --shear none
+//    hertz --body block --shear none
 
 #include "common/hertz_scene.hpp"
 #include "common/run.hpp"
@@ -33,6 +34,7 @@ void hertz(Study &study)
    int order = 2, nodes = 101;
    std::vector<double> shear = {0.6}, levels_of_P;
    MarchSettings settings;
+   study.options().group("The contact");
    study.option(&body, "body", "half-plane (two of them) or block (on a half-plane).",
                 {"half-plane", "block"});
    study.option(&friction, "friction", "Coefficient of friction.", not_negative);
@@ -44,9 +46,11 @@ void hertz(Study &study)
                 "With half-planes: half-width of the line of contact nodes over Hertz's "
                 "half-width of contact.",
                 above(1));
+   study.options().group("The mesh");
    study.option(&domain, "domain", domain_help, none_or_above(10));
    study.option(&order, "order", "Order of the elements.", within(1, 8));
    study.option(&nodes, "nodes", "Number of contact nodes.", at_least(9));
+   study.options().group("The loads");
    study.option(&levels_of_P, "load-levels",
                 "Loading: fractions of the full load P at which pressures and gaps are drawn "
                 "(empty: none).",

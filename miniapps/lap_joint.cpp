@@ -6,15 +6,16 @@
 //  is |x| < c. Forward slip is +x of the upper lap, whose loaded end is at -x. Units t = p0 =
 //  E' = 1, E' = E/(1-ν²); dissipation D E'/P0² a cycle.
 //
-//  Sample runs:  lap_joint
-//                lap_joint -friction 0.5 -load -0.04 -touch
-//                lap_joint -stepping fixed
-//                lap_joint -sweep-load "-0.03 0.04" -sweep-friction "0.2 0.8"
-//                lap_joint -sweep-load 0.04 -sweep-width "0.5 1 2" -spacing 0.01
-//                lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025
-//                lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025
-//                lap_joint -friction 0.8 -load 0.01
-//                lap_joint -friction 0.8 -load 0.03
+//  Sample runs:
+//    lap_joint
+//    lap_joint --friction 0.5 --load -0.04 --touch
+//    lap_joint --stepping fixed
+//    lap_joint --map-load "-0.03 0.04" --map-friction "0.2 0.8"
+//    lap_joint --map-load 0.04 --map-width "0.5 1 2" --spacing 0.01
+//    lap_joint --bolt-positions "-1.5 0 1.5" --friction 0.4 --load 0.2 --spacing 0.025
+//    lap_joint --bolt-positions "-1.2 0 1.2" --lower-thickness 2 --load 0.1 --spacing 0.025
+//    lap_joint --friction 0.8 --load 0.01
+//    lap_joint --friction 0.8 --load 0.03
 
 #include "common/contact_edges.hpp"
 #include "lap_joint/bolted_loop.hpp"
@@ -265,6 +266,7 @@ void lap_joint(Study &study)
    SteppingOptions stepping;
    std::vector<double> loads, frictions, widths;
    bool touch = false, all_cycles = false;
+   study.options().group("The joint");
    study.option(&options.widths[0], "width", "Width w of the pinch pressure, in t.");
    study.option(
       &options.protrusion, "protrusion",
@@ -276,20 +278,20 @@ void lap_joint(Study &study)
                 "Thickness of the lower lap over the upper's (1: equal laps).",
                 between(0.1, 100));
    study.option(&joint.friction, "friction", "Coefficient of friction.", positive);
+   study.options().group("The loads");
    study.option(
       &joint.load, "load",
       "Largest remote load Tmax/P0, tension positive, with P0 = p0 w and the w of --width.");
    study.option(&joint.cycles, "cycles",
                 "Largest number of cycles; the march stops when they are steady.", at_least(1));
-   study.option(&all_cycles,
-                {"all-cycles", "all-cycles", "stop-when-steady", "stop-when-steady"},
-                "March all cycles.");
+   study.option(&all_cycles, {"all-cycles", "stop-when-steady"}, "March all cycles.");
    study.option(&joint.settings.increments, "increments",
                 "Load increments from 0 to Tmax, and as many back.", at_least(1));
    stepping.declare_with_events(study);
-   study.options().renamed("march", "stepping");
+   study.options().group("More results");
    study.option(&touch, "touch", "Also finds the compression at which the free ends touch.");
-   study.option(&options.bolts, "bolts", "Positions of the bolts, in t.");
+   study.options().group("Several bolts");
+   study.option(&options.bolts, "bolt-positions", "Positions of the bolts, in t.");
    study.option(&tightening, "tightening",
                 "Orders of tightening, bolts from 1: \"2 1 3 / 1 3 2\" (empty: inner first, "
                 "outer first).");
@@ -297,24 +299,33 @@ void lap_joint(Study &study)
       &joint.snug, "snug",
       "With several bolts: pressure, over p0, to which all are tightened together first.",
       at_least_below(0, 1));
-   study.option(&loads, "sweep-load",
-                "Sweep: values of T/P0 (empty: none), with P0 of --width for all widths.");
-   study.option(&frictions, "sweep-friction", "Sweep: values of f (empty: --friction).",
-                positive);
-   study.option(&widths, "sweep-width", "Sweep: values of w/t (empty: --width).");
+   study.options().group("More results");
+   study.option(&loads, "map-load",
+                "Map: values of T/P0 (empty: none), with P0 of --width for all widths.");
+   study.option(&frictions, "map-friction", "Map: values of f (empty: --friction).", positive);
+   study.option(&widths, "map-width", "Map: values of w/t (empty: --width).");
+   study.options().group("The mesh");
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
                 above_up_to(0, 0.1));
+   study.options().group("The joint");
    study.option(&options.poisson, "poisson", "Poisson's ratio of both laps.");
+   study.options().group("More results");
    study.option(&joint.paraview, "paraview",
                 "Folder for ParaView files of the first cycle (one bolt).", Text::folder);
-   study.option(&joint.frames, "frames",
+   study.option(&joint.frames, "frame-intervals",
                 "Number of intervals between the frames of --paraview.", at_least(1));
+   study.options().renamed({{"march", "stepping"},
+                            {"bolts", "bolt-positions"},
+                            {"frames", "frame-intervals"},
+                            {"sweep-load", "map-load"},
+                            {"sweep-friction", "map-friction"},
+                            {"sweep-width", "map-width"}});
    study.parse();
    const std::size_t bolts = options.bolts.size();
-   study.only_if(!loads.empty(), {"sweep-friction", "sweep-width"}, "goes with --sweep-load");
-   study.only_if(!joint.paraview.empty(), {"frames"}, "goes with --paraview");
-   study.only_if(bolts > 1, {"tightening", "snug"}, "is of several --bolts");
+   study.only_if(!loads.empty(), {"map-friction", "map-width"}, "goes with --map-load");
+   study.only_if(!joint.paraview.empty(), {"frame-intervals"}, "goes with --paraview");
+   study.only_if(bolts > 1, {"tightening", "snug"}, "is of several --bolt-positions");
    stepping.set(joint.settings);
    joint.settings.stop_at_steady_state = !all_cycles;
    if (frictions.empty()) { frictions = {joint.friction}; }
@@ -322,7 +333,7 @@ void lap_joint(Study &study)
    options.widths = joined_once(options.widths, widths);
    require(bolts == 1 || joint.paraview.empty(),
            "option --paraview writes frames for one bolt only, there are ", bolts);
-   require(bolts == 1 || loads.empty(), "option --sweep-load needs a single bolt, there are ",
+   require(bolts == 1 || loads.empty(), "option --map-load needs a single bolt, there are ",
            bolts);
    const std::vector<std::vector<int>> all = orders(tightening, options.bolts);
 

@@ -3,9 +3,10 @@
 //  Reads a reduced problem (docs/reduced_problems.md): what a study wrote with --save, one of
 //  problems/, or matrices of your own, which need no mesh. Units are those of the file.
 //
-//  Sample runs:  march -case problems/sliders.case.json
-//                march -reduced problems/hertz.json -history "P=0; P=1; Q=.24; Q=-.24"
-//                march -method gauss-seidel -reduced problems/hertz.json -history "P=0; P=1"
+//  Sample runs:
+//    march --case problems/sliders.case.json
+//    march --reduced problems/hertz.json --history "P=0; P=1; Q=.24; Q=-.24"
+//    march --method gauss-seidel --reduced problems/hertz.json --history "P=0; P=1"
 
 #include "common/own_history.hpp"
 #include "common/strength_options.hpp"
@@ -56,11 +57,13 @@ void march_problem(Study &study)
    OwnHistory history(study);
    FrictionSettings &solver = history.settings.friction;
    int max_sweeps = static_cast<int>(solver.max_sweeps);
+   study.options().group("The problem");
    study.option(&file, "reduced", "Reduced problem: what --save of a study wrote, or your own.",
                 Text::input);
    study.option(&friction, "friction",
                 "Coefficient of friction of all nodes, instead of the file's.", not_negative);
    const StrengthOptions strength(study);
+   study.options().group("The solver");
    study.option(&method, "method",
                 "automatic, or gauss-seidel (one node at a time, as in the thesis).",
                 {"automatic", "gauss-seidel"});

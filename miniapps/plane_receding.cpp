@@ -7,18 +7,19 @@
 //  steps that shrink with the load. Forward slip is +x of the strip; loading drags it to -x,
 //  "backward". Units t = p0 = E' = 1, E' = E/(1-ν²).
 //
-//  Sample runs:  plane_receding
-//                plane_receding -domain 1e4 -unload "0.9 0.5 0.2 0.1" -steps 50
-//                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1"
-//                plane_receding -obstacle th0 -friction 0.3 -order 1 -spacing 0.04
-//                plane_receding -domain 1e4 -overhang 0.8 -friction 1.4
-//                plane_receding -domain 1e4 -overhang 0.8 -bonded "0.1 0.18 0.3 0.5 0.8"
-//                plane_receding -obstacle th0 -bonded "1.5 2"
-//                plane_receding -spacing 0.05 -corner 0.01 -steps 9 -cycles 4 -cycle-to 0.5
-//                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
-//                plane_receding -domain 1e4 -map 4 -map-friction "0.3 0.5 1"
-//                plane_receding -obstacle th0 -unload 0.5
-//                plane_receding -obstacle th0 -overhang 2 -unload 0.5
+//  Sample runs:
+//    plane_receding
+//    plane_receding --domain 1e4 --unload "0.9 0.5 0.2 0.1" --increments 50
+//    plane_receding --friction 0.7 --unload "0.9 0.5 0.2 0.1"
+//    plane_receding --obstacle th0 --friction 0.3 --order 1 --spacing 0.04
+//    plane_receding --domain 1e4 --overhang 0.8 --friction 1.4
+//    plane_receding --domain 1e4 --overhang 0.8 --bonded "0.1 0.18 0.3 0.5 0.8"
+//    plane_receding --obstacle th0 --bonded "1.5 2"
+//    plane_receding --spacing 0.05 --corner 0.01 --increments 9 --cycles 4 --cycle-to 0.5
+//    plane_receding --map-overhang "0.4 0.8 1.2 1.6 2 3" --spacing 0.05 --corner 0.01
+//    plane_receding --domain 1e4 --map-overhang 4 --map-friction "0.3 0.5 1"
+//    plane_receding --obstacle th0 --unload 0.5
+//    plane_receding --obstacle th0 --overhang 2 --unload 0.5
 
 #include "common/receding_study.hpp"
 #include "plane_receding/bonded_strip.hpp"
@@ -194,6 +195,7 @@ void plane_receding(Study &study)
    Unloading unloading{
       50, 0.05, {}, "levels", "tractions", "Pressure p and shear q over f", "right", 2.5};
    bool study_domain = false;
+   study.options().group("The contact");
    study.option(&overhang, "overhang",
                 "Distance n from the strip's end to the edge of the load, in t (thickness of "
                 "the strip).");
@@ -202,23 +204,27 @@ void plane_receding(Study &study)
                 "Body below the strip: half-plane, or th0, the block of the thesis (--length "
                 "20 --domain 200 --side 80).",
                 {"half-plane", "th0"});
+   study.options().group("The mesh");
    study.option(&options.domain, "domain", domain_help, none_or_above(1));
    study.option(&options.side, "side",
                 "Length of the block beyond the strip's end in t (0: as long as its depth).");
+   study.options().group("The contact");
    study.option(&options.length, "length", "Length of the strip in t.", positive);
+   study.options().group("The mesh");
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
                 above_up_to(0, 0.5));
    study.option(&options.corner, "corner",
                 "Distance of the contact nodes at the strip's end, in t.");
+   study.options().group("The contact");
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
+   study.options().group("Unloading and cycles");
    study.option(&unloading.wanted, "unload",
                 "Unloading: values of p/p0 at which results are printed (empty: none).",
                 between(0, 1));
-   study.option(&unloading.steps, "steps", "Unloading: number of steps from p0 to zero.",
+   study.option(&unloading.steps, "increments", "Unloading: number of steps from p0 to zero.",
                 at_least(2));
    stepping.declare_with_events(study);
-   study.options().renamed("march", "stepping");
    study.option(&unloading.lowest, "lowest",
                 "Unloading: lowest p/p0, towards which the steps shrink.", between(0, 1));
    study.option(&slipping, "slip", "Unloading: places ξ/t whose slip is followed.");
@@ -227,17 +233,20 @@ void plane_receding(Study &study)
       "Cycles of the load between p0 and less: list of the lowest p/p0 (empty: none).",
       between(0, 1));
    study.option(&cycles, "cycles", "Largest number of cycles of the load.", at_least(1));
+   study.options().group("More results");
    study.option(&bonded_n, "bonded",
                 "Bonded strips: values of n whose tractions are drawn; the n at which their "
                 "kind changes is printed too.",
                 positive);
    study.option(
-      &map_n, "map",
+      &map_n, "map-overhang",
       "Map of the separation s and the border of stick e: values of n (empty: none).");
    study.option(&map_f, "map-friction", "Map of s and e: values of f.", positive);
    study.option(&study_domain, "domain-study", "Print s and e for growing domains.");
+   study.options().renamed(
+      {{"march", "stepping"}, {"steps", "increments"}, {"map", "map-overhang"}});
    study.parse();
-   study.only_if(!map_n.empty(), {"map-friction"}, "goes with --map");
+   study.only_if(!map_n.empty(), {"map-friction"}, "goes with --map-overhang");
    study.only_if(!cycled.empty(), {"cycles"}, "goes with --cycle-to");
    study.only_if(!unloading.wanted.empty(), {"slip"}, "goes with --unload");
    if (obstacle == "th0")

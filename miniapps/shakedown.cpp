@@ -14,17 +14,18 @@
 //  and the marches are made. With a law of friction other than Coulomb's, of --strength or of
 //  the file, it is the largest load that is found, which needs a law that never gets steeper.
 //
-//  Sample runs:  shakedown
-//                shakedown -nodes 101 -find load -friction 1 -reversal -1 -march -cycles 30
-//                shakedown -nodes 81 -map -adhesion-map
-//                shakedown -find friction -tractions -transposed
-//                shakedown -find load -load-ratios -transposed -lower
-//                shakedown -nodes 33 -mesh-study "33 65 101"
-//                shakedown -nodes 33 -mismatch "0.1 1 10"
-//                shakedown -nodes 33 -find load -mismatch 1 -mismatch-poisson "0.3 0.45"
-//                shakedown -obstacle rigid -nodes 65 -friction 0.6 -starts 4
-//                shakedown -march -cycles 2
-//                shakedown -nodes 33 -find load -strength ".8 .6 2 .9"
+//  Sample runs:
+//    shakedown
+//    shakedown --nodes 101 --find load --friction 1 --load-ratio -1 --march --cycles 30
+//    shakedown --nodes 81 --map --adhesion-map
+//    shakedown --find friction --tractions --transposed
+//    shakedown --find load --loads-over-friction --transposed --lower
+//    shakedown --nodes 33 --mesh-study "33 65 101"
+//    shakedown --nodes 33 --mismatch "0.1 1 10"
+//    shakedown --nodes 33 --find load --mismatch 1 --mismatch-poisson "0.3 0.45"
+//    shakedown --obstacle rigid --nodes 65 --friction 0.6 --starts 4
+//    shakedown --march --cycles 2
+//    shakedown --nodes 33 --find load --strength ".8 .6 2 .9"
 
 #include "shakedown/shakedown_study.hpp"
 
@@ -74,6 +75,7 @@ void Shakedown::run()
 void Shakedown::options()
 {
    std::string obstacle = "half-plane";
+   study.options().group("The loads and the friction");
    study.option(&friction, "friction",
                 "Coefficient of friction, for the largest load and the marches; default: 0.85, "
                 "with --reduced that of the file.",
@@ -81,10 +83,11 @@ void Shakedown::options()
    study.option(&lambda_max, "lambda-max",
                 "Largest cycled load, for the smallest friction and the marches.", positive);
    study.option(&lambda_min, "lambda-min", "Smallest cycled load.");
-   study.option(&reversal, "reversal",
+   study.option(&reversal, "load-ratio",
                 "R = λmin/λmax, instead of --lambda-min: -1 for a load to and fro, 0 for a "
                 "pulsating one.",
                 Check{[](double R) { return R >= -1 && R <= 1; }, "must be between -1 and 1"});
+   study.options().group("Limits, and what is shown of them");
    study.option(&find, "find",
                 "The smallest friction for the loads, the largest load for the friction, or "
                 "both: friction, load or both.",
@@ -98,6 +101,7 @@ void Shakedown::options()
    study.option(&steps, "tractions",
                 "Prints the tractions of the monolith and the steps of the estimates (figures "
                 "4.4 to 4.14).");
+   study.options().group("Marches");
    study.option(&march, "march",
                 "Marches in time from three initial slips (zero, optimal and negative "
                 "optimal); their outcome is then that of the run; also with --plot or --html.");
@@ -106,18 +110,19 @@ void Shakedown::options()
       &starts, "starts",
       "Number of random starts in the search for a start that slips for ever (0: none).",
       not_negative);
+   study.options().group("Limits, and what is shown of them");
    study.option(
       &lower_limits, "lower",
       "Also find the load that is proven to shake down from every start, with and without "
       "slip at nodes near the ends.");
-   study.option(&load_ratios, "load-ratios",
+   study.option(&load_ratios, "loads-over-friction",
                 "Prints the largest loads over f for R = -1 with f = 0.85 and 1, and for R = "
                 "-0.5 with f = 0.85 (chapter 4).");
    study.option(
       &transposed, "transposed",
-      "The smallest friction, and the ratios of --load-ratios, with the block B of the "
+      "The smallest friction, and the ratios of --loads-over-friction, with the block B of the "
       "stiffness transposed, as (4.10) is printed.");
-   study.option(&corner, "corner",
+   study.option(&corner, "left-out",
                 "Share of the contact length that pointwise figures leave out at each end, "
                 "where nodal ratios do not converge.",
                 at_least_below(0, 0.5));
@@ -131,10 +136,13 @@ void Shakedown::options()
       &mismatch_poisson, "mismatch-poisson",
       "Poisson's ratios of the half-plane for --mismatch (default: that of the block).",
       at_least_below(0, 0.5));
+   study.options().group("The contact");
    study.option(&obstacle, "obstacle", "Body below the block: rigid or half-plane.",
                 {"rigid", "half-plane"});
    add_options(study, punch);
+   study.options().group("The loads and the friction");
    strength.emplace(study);
+   study.options().group("A saved problem in place of the punch");
    study.option(&reduced, "reduced", "A saved reduced problem instead of the punch.",
                 Text::input);
    study.option(&held, "held", "Load pattern that is held at 1.");
@@ -142,6 +150,9 @@ void Shakedown::options()
    study.option(&closed, "closed",
                 "Keep only the nodes that stay closed in three cycles at the largest load "
                 "(--lambda-max, or with --find load the limit).");
+   study.options().renamed({{"reversal", "load-ratio"},
+                            {"load-ratios", "loads-over-friction"},
+                            {"corner", "left-out"}});
    study.parse();
    saved = !reduced.empty();
    strength->check();
@@ -150,7 +161,7 @@ void Shakedown::options()
                   "mesh-study", "mismatch"},
                  "is for the punch, not for a saved problem");
    study.only_if(std::isnan(reversal), {"lambda-min"},
-                 "gives the same as --reversal: use one of them");
+                 "gives the same as --load-ratio: use one of them");
    punch.half_plane = obstacle == "half-plane";
    study.only_if(!mismatch.empty(), {"mismatch-poisson"}, "goes with --mismatch");
    if (mismatch_poisson.empty()) { mismatch_poisson = {punch.poisson}; }

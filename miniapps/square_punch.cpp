@@ -4,15 +4,16 @@
 //  by P and then sheared by Q, monotonically through a list of values or cyclically. The
 //  interface is a complete contact with Coulomb friction. Units a = P = E' = 1, E' = E/(1-ν²).
 //
-//  Sample runs:  square_punch
-//                square_punch -obstacle half-plane --shear "0.25 0.75"
-//                square_punch -obstacle half-plane -domain 1e4 --shear "0.25 0.75"
-//                square_punch -obstacle half-plane --shear none -dislocation "0 0.7"
-//                square_punch -order 1 -nodes 201 -grading 0.02
-//                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
-//                square_punch -obstacle half-plane -nodes 65 -cycles 3
-//                square_punch -friction 0 -nodes 33 -shear none
-//                square_punch -shear none -cycles 2
+//  Sample runs:
+//    square_punch
+//    square_punch --obstacle half-plane --shear "0.25 0.75"
+//    square_punch --obstacle half-plane --domain 1e4 --shear "0.25 0.75"
+//    square_punch --obstacle half-plane --shear none --dislocation "0 0.7"
+//    square_punch --order 1 --nodes 201 --grading 0.02
+//    square_punch --obstacle half-plane --nodes 65 --cycles 3 --amplitude 0.6
+//    square_punch --obstacle half-plane --nodes 65 --cycles 3
+//    square_punch --friction 0 --nodes 33 --shear none
+//    square_punch --shear none --cycles 2
 
 #include "common/punch.hpp"
 #include "common/run.hpp"
@@ -72,12 +73,14 @@ void square_punch(Study &study)
    double friction = none, amplitude = 0.8;
    std::vector<double> shear = {0.25, 0.5, 0.75, 0.9}, jumps;
    int cycles = 0;
+   study.options().group("The contact");
    study.option(&obstacle, "obstacle", "Body below the block: rigid or half-plane.",
                 {"rigid", "half-plane"});
    study.option(&friction, "friction",
                 "Coefficient of friction; default 0.2 (rigid), 0.4 (half-plane).",
                 not_negative);
    add_options(study, options);
+   study.options().group("The loads");
    study.option(&shear, "shear", "Monotonic shear: values of Q/fP, or none.");
    study.option(
       &jumps, "dislocation",
@@ -89,7 +92,7 @@ void square_punch(Study &study)
    study.option(&settings.increments, "increments",
                 "Load increments between two values of the shear.", at_least(1));
    stepping.declare_with_events(study);
-   study.options().renamed("march", "stepping");
+   study.options().renamed({{"march", "stepping"}});
    study.parse();
    study.only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
    options.half_plane = obstacle == "half-plane";

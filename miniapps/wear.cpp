@@ -2,16 +2,18 @@
 //
 //  A parabola 1/R on a half-plane of the same material, pressed by P; Q swings between ±f P
 //  times
-//  --shear, and the surfaces wear by Archard's law, depth = k p |slip|, both together. Units:
-//  a (half-width of the unworn contact) = P = R = 1. Wear ends when what slips carries nothing:
-//  that state is also solved for directly, and compared with Ciavarella and Hills (1999). With
+//  --amplitude, and the surfaces wear by Archard's law, depth = k p |slip|, both together.
+//  Units: a (half-width of the unworn contact) = P = R = 1. Wear ends when what slips carries
+//  nothing: that state is also solved for directly, and compared with Ciavarella and Hills
+//  (1999). With
 //  --reduced any saved reduced problem, in its own units, through a history of your own. No
 //  debris, and depth must be small against the contact: docs/wear.md.
 //
-//  Sample runs:  wear
-//                wear --shear 0.2 --friction 0.3 --cycles 0
-//                wear --profile flat --cycles 2000
-//                wear --case problems/hertz_wear.case.json
+//  Sample runs:
+//    wear
+//    wear --amplitude 0.2 --friction 0.3 --cycles 0
+//    wear --profile flat --cycles 2000
+//    wear --case problems/hertz_wear.case.json
 
 #include "common/run.hpp"
 #include "common/watch.hpp"
@@ -62,6 +64,7 @@ void wear_contact(Study &study)
    WearSettings settings;
    settings.tolerance = 1e-3;
    settings.march.increments = 0;
+   study.options().group("The pad");
    study.option(&pad.profile, "profile",
                 "Pad: parabola, or flat with rounded edges. Units: P = 1, R = 1, and the "
                 "parabola's half-width of contact under P is 1, which fixes the modulus.",
@@ -70,7 +73,8 @@ void wear_contact(Study &study)
       &pad.flat, "flat",
       "Pad: half-width of the flat part (with 0.5 the half-width of contact is 1.36 under P).",
       between(0, 1));
-   study.option(&shear, "shear", "Pad: amplitude of Q over fP; default: 0.5.", between(0, 1));
+   study.option(&shear, "amplitude", "Pad: amplitude of Q over fP; default: 0.5.",
+                between(0, 1));
    study.option(&friction, "friction",
                 "Coefficient of friction; default: 0.5, with --reduced that of the file.",
                 positive);
@@ -79,14 +83,16 @@ void wear_contact(Study &study)
                 "Pad: number of contact nodes, one more than a multiple of twice the order.",
                 at_least(25));
    study.option(&pad.order, "order", "Pad: order of the elements.", within(1, 8));
+   study.options().group("The wear");
    study.option(&cycles, "cycles", "Number of cycles in all, with those of --load-state.",
                 within(0, 1e15));
    study.option(&coefficient, "wear", "Archard's k of both bodies together, in 1/pressure.",
                 not_negative);
-   study.option(&threshold, "threshold", "Pressure below which nothing wears.", not_negative);
+   study.option(&threshold, "least-pressure", "Pressure below which nothing wears.",
+                not_negative);
    study.option(&of_energy, "energy",
                 "k is the wear per energy lost by friction: f k takes the place of k.");
-   study.option(&settings.tolerance, "tolerance",
+   study.option(&settings.tolerance, "depth-error",
                 "Largest error of worn depths that skipping cycles may cause, as a share of "
                 "the largest depth. 0: no cycle is skipped.",
                 within(0, 0.1));
@@ -94,12 +100,14 @@ void wear_contact(Study &study)
                 "When wear is added to the gap: after each cycle, or after each piece of the "
                 "cycle (from one point of the history to the next).",
                 {"cycle", "piece"});
+   study.options().group("The march");
    study.option(&settings.march.increments, "increments",
                 "Load increments between two points of the history. 0: 1 where slip is in "
                 "proportion to the load in each part of the cycle (the pads, or an uncoupled "
                 "problem with constant normal loads in the cycle), else 20.",
                 at_least(0));
    stepping.declare(study);
+   study.options().group("A saved problem in place of the pad");
    study.option(&file, "reduced", "Reduced problem, in place of the pad.", Text::input);
    study.option(&history_text, "history",
                 "With --reduced: load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'.",
@@ -107,17 +115,20 @@ void wear_contact(Study &study)
    study.option(&cycle_start, "cycle-start",
                 "With --reduced: point of the history (from 0) where its cycle starts.",
                 at_least(-1));
+   study.options().group("The march");
    study.option(&save_state, "save-state", "File for the last state.", Text::output);
    study.option(&load_state, "load-state", "State from which the march continues.",
                 Text::input);
    study.options().leave_out_of_cases("load-state");
+   study.options().renamed(
+      {{"shear", "amplitude"}, {"tolerance", "depth-error"}, {"threshold", "least-pressure"}});
    study.parse();
    stepping.set(settings.march);
    settings.update = update == "piece" ? GapUpdate::piece : GapUpdate::cycle;
 
    study.only_if(!file.empty(), {"history", "cycle-start"},
                  "is of --reduced, the pad has its own");
-   study.only_if(file.empty(), {"shear", "profile", "flat", "poisson", "nodes", "order"},
+   study.only_if(file.empty(), {"amplitude", "profile", "flat", "poisson", "nodes", "order"},
                  "is of the pad, --reduced has its own contact and --history");
    WearCase scene;
    if (file.empty())

@@ -104,6 +104,9 @@ struct Sheet
 /// is no sheet or a file cannot be written.
 void write_csv(const std::vector<Sheet> &sheets, const std::string &prefix);
 
+/// Makes a file for others to read or overwrite, among those that are temporary.
+std::string temporary_file(const std::string &name, const std::string &text);
+
 /** Has the package cattaneo_show make a picture or a page ("--plot", "--html") of a run that
    was written as JSON. InputError if it cannot, which says how it is made later; the JSON
    stays.
@@ -111,7 +114,12 @@ void write_csv(const std::vector<Sheet> &sheets, const std::string &prefix);
 void show(const std::string &run, bool passing, const std::string &option,
           const std::string &file);
 
-/// Becomes cattaneo_show with these words: returns only if there is no Python.
+/// What cattaneo_show answers to a question about references (compare.py); null if there is no
+/// Python. InputError if it cannot answer.
+nlohmann::ordered_json ask_reader(const nlohmann::ordered_json &question);
+
+/// Becomes cattaneo_show with these words: returns only if there is no Python, with nothing
+/// changed.
 void become_reader(const std::vector<std::string> &words);
 
 /// Draws panels that belong to no study, those of a benchmark. Nothing for an empty name.

@@ -19,19 +19,19 @@ void LapJointOptions::validate() const
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
    require(!widths.empty(), "option --width has no value, must have at least one");
    require(!bolts.empty(),
-           "option --bolts is empty, must have the position of at least one bolt");
+           "option --bolt-positions is empty, must have the position of at least one bolt");
    for (double w : widths)
    {
-      require(w > 0 && 0.5 * w <= protrusion, "option --width or --sweep-width: ", w,
+      require(w > 0 && 0.5 * w <= protrusion, "option --width or --map-width: ", w,
               " must be positive and within the protrusion ", protrusion, " to both sides");
       require(std::count(widths.begin(), widths.end(), w) == 1, "the width ", w,
               " is given twice: each value makes a load pattern, so give it once");
    }
    for (double x : bolts)
    {
-      require(std::isfinite(x), "option --bolts: ", x, " must be finite");
+      require(std::isfinite(x), "option --bolt-positions: ", x, " must be finite");
       require(std::count(bolts.begin(), bolts.end(), x) == 1,
-              "option --bolts: there are two bolts "
+              "option --bolt-positions: there are two bolts "
               "at ",
               x, ", must be at different places");
    }
@@ -59,7 +59,7 @@ Scene make_lap_joint(const LapJointOptions &options)
    const double fine = std::min(free_end, d + 0.5 * w_max + 0.3);
    constexpr double most_nodes = 20000; // their stiffness fills 13 GB
    require(2 * fine / options.spacing < most_nodes,
-           "options --bolts and --spacing: ", 2 * fine / options.spacing,
+           "options --bolt-positions and --spacing: ", 2 * fine / options.spacing,
            " contact nodes would lie between the bolts, must be at "
            "most ",
            most_nodes);

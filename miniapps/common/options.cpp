@@ -2,6 +2,7 @@
 
 #include "common/case_file.hpp"
 #include "common/miniapp.hpp"
+#include "common/shipped.hpp"
 #include "common/table.hpp"
 #include "common/text.hpp"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -153,7 +155,8 @@ std::string replaced(const std::string &text, const std::string &separators,
 
 } // namespace
 
-Options::Options(int argc, char *argv[]) : words_(argv, argv + argc)
+Options::Options(const std::string &program, int argc, char *argv[])
+   : program_(program), words_(argv, argv + argc)
 {
    add(&case_file_, "case", "JSON file with options; those of the command line override it.",
        Text::input);
@@ -264,13 +267,28 @@ void Options::Option::validate() const
    }
 }
 
+const Options::Option *Options::named(const std::string &name) const
+{
+   const auto found = std::find_if(options_.begin(), options_.end(),
+                                   [&](const Option &one) { return one.names.name == name; });
+   return found == options_.end() ? nullptr : &*found;
+}
+
+void Options::refuse_old(const std::string &what, const std::string &name) const
+{
+   const auto now = renamed_.find(name);
+   require(now == renamed_.end(), what, " is called --",
+           now == renamed_.end() ? "" : now->second, " now (-h shows its values)");
+}
+
 const Options::Option *Options::find(const std::string &word) const
 {
+   if (word[0] != '-') { return nullptr; }
+   const std::string name = word.substr(word.rfind("--", 0) == 0 ? 2 : 1);
    for (const Option &option : options_)
    {
-      const auto &on = option.names.on;
-      const auto end = option.is_flag() ? on.end() : on.begin() + 2;
-      if (std::find(on.begin(), end, word) != end) { return &option; }
+      const Names &names = option.names;
+      if (name == names.name || (option.is_flag() && name == names.off)) { return &option; }
    }
    return nullptr;
 }
@@ -286,18 +304,11 @@ void Options::read_words()
          throw Leave();
       }
       const Option *option = find(word);
-      for (const auto &[before, name] : renamed_)
-      {
-         require(option || (word != "-" + before && word != "--" + before), "option ", word,
-                 " is called --", name, " now (-h shows its values)");
-      }
+      const std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+      if (!option && word[0] == '-') { refuse_old("option " + word, name); }
       require(option, "Unrecognized option: ", word, " (-h lists the options)");
       Given given{option, word, ""};
-      if (option->is_flag())
-      {
-         const auto &on = option->names.on;
-         given.text = word == on[0] || word == on[1] ? "true" : "false";
-      }
+      if (option->is_flag()) { given.text = name == option->names.name ? "true" : "false"; }
       else
       {
          require(i + 1 < words_.size() && !find(words_[i + 1]), "option ", word,
@@ -319,9 +330,21 @@ void Options::read_words()
    }
 }
 
+void Options::print_head() const
+{
+   // The head of a program's source says its purpose, its units, and how it is called.
+   std::ifstream source(shipped("miniapps/" + program_ + ".cpp"));
+   for (std::string line; std::getline(source, line) && line.rfind("//", 0) == 0;)
+   {
+      std::printf("%s\n", line.substr(std::min<std::size_t>(4, line.size())).c_str());
+   }
+   std::printf("\n");
+}
+
 void Options::print_help() const
 {
-   std::printf("Options (-h, --help: this list)\n");
+   print_head();
+   std::printf("Options (-h: this list; one dash will do in place of two)\n");
    std::vector<std::string> headings; // in the order of their first options
    for (const Option &option : options_)
    {
@@ -337,12 +360,11 @@ void Options::print_help() const
       {
          if (option.group != heading) { continue; }
          static const char *const kinds[] = {"integer", "number", "", "text", "numbers"};
-         const auto &on = option.names.on;
          const std::string now = option.text(), kind = option.choices.empty()
                                                           ? kinds[option.value.index()]
                                                           : listed(option.choices, "|");
-         std::printf("   %s, %s %s%s\n", on[0].c_str(), on[1].c_str(),
-                     option.is_flag() ? ("or " + on[2] + ", " + on[3]).c_str()
+         std::printf("   --%s %s%s\n", option.names.name.c_str(),
+                     option.is_flag() ? ("or --" + option.names.off).c_str()
                                       : ("<" + kind + ">").c_str(),
                      option.is_flag() || now.empty() ? "" : (", default " + now).c_str());
          std::printf("%s", wrapped(option.help, 8).c_str());
@@ -419,7 +441,7 @@ void Options::check_files() const
 void Options::echo() const
 {
    // Those that were typed; with --verbose what all others are.
-   const Option *verbose = find("--verbose");
+   const Option *verbose = named("verbose");
    const bool all = !verbose || verbose->text() == "true";
    if (!all && given_.empty()) { return; }
    std::printf("Options%s:\n", all ? "" : " (--verbose prints all)");
@@ -429,10 +451,13 @@ void Options::echo() const
          std::any_of(given_.begin(), given_.end(),
                      [&](const Given &given) { return given.option == &option; });
       const std::string text = option.text();
-      const auto &on = option.names.on;
+      const Names &names = option.names;
       if (!all && !typed) { continue; }
-      if (option.is_flag()) { std::printf("   %s\n", on[text == "true" ? 1 : 3].c_str()); }
-      else if (!text.empty()) { std::printf("   %s %s\n", on[1].c_str(), text.c_str()); }
+      if (option.is_flag())
+      {
+         std::printf("   --%s\n", (text == "true" ? names.name : names.off).c_str());
+      }
+      else if (!text.empty()) { std::printf("   --%s %s\n", names.name.c_str(), text.c_str()); }
    }
    std::printf("\n");
    std::fflush(stdout);
@@ -501,6 +526,7 @@ const Options::Option &Options::changeable(const std::string &by, const std::str
               most == 0 ? " has no entries" : " has no entries of entries");
       return option;
    }
+   refuse_old(by + ": option '" + name + "'", name);
    throw InputError(by + ": there is no option '" + name + "', must be one of " +
                     listed(known));
 }
@@ -540,7 +566,7 @@ void Options::change()
 std::vector<std::string>
 Options::command(const std::vector<std::pair<std::string, std::string>> &changes) const
 {
-   std::map<std::string, std::string> values; // by long names
+   std::map<std::string, std::string> values; // by names
    for (const Given &given : given_)
    {
       const std::string &name = given.option->names.name;
@@ -550,7 +576,7 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
       if (!given.option->is_written()) { values[name] = given.text; }
    }
    // What was changed stands for itself, a key may be swept.
-   for (const std::string &name : changed_) { values[name] = find("--" + name)->text(); }
+   for (const std::string &name : changed_) { values[name] = named(name)->text(); }
    for (const char *name : {"set", "sweep-results"}) { values.erase(name); }
    values["sweep"] = "none"; // a case file may have one
    for (const auto &[key, value] : changes)
@@ -572,8 +598,9 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
    std::vector<std::string> words;
    for (const auto &[name, text] : values)
    {
-      const Option &option = *find("--" + name);
-      words.push_back(option.names.on[text == "false" && option.is_flag() ? 3 : 1]);
+      const Option &option = *named(name);
+      const bool off = text == "false" && option.is_flag();
+      words.push_back("--" + (off ? option.names.off : name));
       if (!option.is_flag()) { words.push_back(text); }
    }
    return words;
@@ -604,6 +631,7 @@ const Options::Option &Options::of_case(const std::string &key, const std::strin
       if (option.names.name == key) { return option; }
       known.push_back(option.names.name);
    }
+   refuse_old(where + "key '" + key + "'", key);
    throw InputError(where + "unknown key '" + key + "', must be one of " + listed(known));
 }
 

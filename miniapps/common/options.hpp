@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -49,31 +50,23 @@ extern const char *const domain_help;
     to be read and written are known as such, so that a run does not end, after all its work,
     with nowhere to write to, or writes over what it reads.
 
-    --case FILE.json gives options as well, by their long names without dashes; the command line
+    --case FILE.json gives options as well, by their names without dashes; the command line
     overrides it. Files that are written are named on the command line only. Comments are
     allowed in it, as in C++. */
 class Options
 {
 public:
-   Options(int argc, char *argv[]);
+   /// @param program whose head comment -h prints first
+   Options(const std::string &program, int argc, char *argv[]);
 
-   /// Names of an option: -name and --name, or -short and --name. The other side of a flag is
-   /// -no-name and --no-name unless it is given.
+   /// The one name of an option, typed as --name or -name, and the other side of a flag, which
+   /// is --no-name unless it is given.
    struct Names
    {
-      Names(const char *name) : Names(name, name) {}
-      Names(const std::string &name) : Names(name, name) {}
-      Names(const std::string &short_name, const std::string &name)
-         : Names(short_name, name, "no-" + short_name, "no-" + name)
-      {
-      }
-      Names(const std::string &short_name, const std::string &name,
-            const std::string &short_off, const std::string &off)
-         : on{"-" + short_name, "--" + name, "-" + short_off, "--" + off}, name(name)
-      {
-      }
-      std::vector<std::string> on;
-      std::string name;
+      Names(const char *name) : Names(std::string(name)) {}
+      Names(const std::string &name) : Names(name, "no-" + name) {}
+      Names(const std::string &name, const std::string &off) : name(name), off(off) {}
+      std::string name, off;
    };
 
    /// Where the value goes: NaN is a number that has not been given, which no check asks; a
@@ -97,11 +90,8 @@ public:
    /// Names what is no part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
-   /// An option that had another name, which an error says.
-   void renamed(const std::string &before, const std::string &name)
-   {
-      renamed_.emplace_back(before, name);
-   }
+   /// Options that had other names, which are refused with the new ones: from and to.
+   void renamed(const std::map<std::string, std::string> &names) { renamed_ = names; }
 
    /// Sets all options and echoes those that were typed (with --verbose all); -h prints them
    /// all and leaves the program (Leave). InputError for what is no option, and for a value or
@@ -109,7 +99,7 @@ public:
    void parse();
 
    /** The words of a command that runs the same with some values changed, and without what it
-       writes; a key is an option's long name, NAME.k for entry k (from 0) of a list or of
+       writes; a key is an option's name, NAME.k for entry k (from 0) of a list or of
        statements, or NAME.k.LOAD for a load's multiplier at point k of a history. To be called
        after parse(). In a structure a key is NAME.KEY.KEY…, with numbers (from 0) for entries
       of arrays. InputError if a key is none or an option does not allow its value. */
@@ -125,7 +115,7 @@ public:
    /// with --map"
    void only_if(bool used, const std::vector<std::string> &names, const std::string &why) const;
 
-   /// What was parsed, by long names, lists as text.
+   /// What was parsed, by names, lists as text.
    const nlohmann::ordered_json &values() const { return values_; }
 
 private:
@@ -167,8 +157,14 @@ private:
       std::string as, text; ///< the option's name as it was typed, and its value
    };
 
+   /// The option of a name, or null.
+   const Option *named(const std::string &name) const;
+   /// InputError if an option that is none had this name before, which begins with `what`.
+   void refuse_old(const std::string &what, const std::string &name) const;
+   /// The option that a word of the command line is, or null.
    const Option *find(const std::string &word) const;
    void read_words();
+   void print_head() const;
    void print_help() const;
    void echo() const;
    void check_files() const;
@@ -179,12 +175,13 @@ private:
    /// What --set says.
    void change();
 
+   const std::string program_;
    const std::vector<std::string> words_; ///< of the command line
    std::deque<Option> options_;           ///< these stay where they are
    std::vector<Given> given_;
-   std::set<std::string> said_, changed_;                     ///< long names
-   std::vector<std::pair<std::string, std::string>> renamed_; ///< from and to, long names
-   std::string case_file_, set_, group_ = "The study";
+   std::set<std::string> said_, changed_; ///< names
+   std::map<std::string, std::string> renamed_;
+   std::string case_file_, set_, group_ = "A case file";
    int version_ = 0;
    nlohmann::ordered_json values_;
 };

@@ -245,7 +245,6 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
    study.option(&save_state_, "save-state", "File for the last state.", Text::output);
    study.option(&load_state_, "load-state", "State from which the march continues.",
                 Text::input);
-   study.options().group("The study");
    for (const char *name : {"frames", "load-state"})
    {
       study.options().leave_out_of_cases(name);

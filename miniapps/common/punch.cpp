@@ -25,6 +25,7 @@ void PunchOptions::validate() const
 void add_options(Study &study, PunchOptions &options)
 {
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
+   study.options().group("The mesh");
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.nodes, "nodes", "Contact nodes.");
    study.option(

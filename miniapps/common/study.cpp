@@ -2,12 +2,14 @@
 
 #include "common/check.hpp"
 #include "common/run.hpp"
+#include "common/shipped.hpp"
 #include "common/sweep.hpp"
 #include "common/watch.hpp"
 
 #include <algorithm>
 #include <cattaneo/output/streamed_file.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -21,14 +23,23 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 Study::Study(const std::string &name, int argc, char *argv[])
-   : options_(argc, argv), references_(name), name_(name)
+   : options_(name, argc, argv), name_(name)
 {
+   const std::string file = shipped("miniapps/data/references.json");
+   if (!fs::exists(file))
+   {
+      warn("nothing is compared with references: file '" + file + "' cannot be read");
+      return;
+   }
+   references_ = cattaneo::read_whole(file);
+   const bool has_study = references_.find("\"study\": \"" + name + '"') != std::string::npos;
+   if (!has_study) { references_.clear(); }
 }
 
-void Study::parse(const char *json)
+void Study::parse()
 {
    options_.group("Results, and how they are shown");
-   option(&json_, {json, "json"}, "File for the results.", Text::output);
+   option(&json_, "json", "File for the results.", Text::output);
    option(&csv_, "csv", "Prefix of CSV files of tables and figures.", Text::prefix);
    option(&plot_, "plot", "Picture of the results (png, pdf, svg).", Text::picture);
    option(&html_, "html",
@@ -191,7 +202,10 @@ void Study::value(const std::string &key, double x, const std::string &label, do
 {
    if (!key.empty()) { results[key] = x; }
    if (!key.empty() && !std::isnan(error)) { results[key + "_error_estimate"] = error; }
-   if (references_.has(key)) { found_.push_back({key, x, error, {}}); }
+   if (is_compared(key))
+   {
+      found_.push_back({{"key", key}, {"computed", x}, {"error", error}, {"row", nullptr}});
+   }
    if (label.empty()) { return; }
    std::string line =
       "   " + padded(label, 40) + " " + (std::isfinite(x) ? text("%.6g", x) : "-");
@@ -228,13 +242,13 @@ void Study::row(ResultTable &table, const std::vector<ordered_json> &values,
    for (const auto &[column, x] : row.items())
    {
       const std::string key = table.name() + "/" + column;
-      if (!x.is_number() || !references_.has(key)) { continue; }
+      if (!x.is_number() || !is_compared(key)) { continue; }
       double error = none;
       for (const auto &[of, its] : errors)
       {
          if (of == column) { error = its; }
       }
-      found_.push_back({key, x.get<double>(), error, row});
+      found_.push_back({{"key", key}, {"computed", x}, {"error", error}, {"row", row}});
    }
 }
 
@@ -260,28 +274,43 @@ Film *Study::film(const cattaneo::ReducedProblem &problem)
 
 void Study::compare(const std::string &name, double exact, Allowed allowed, double computed)
 {
-   compared_.push_back({name, exact, allowed, computed});
+   closed_.push_back({{"name", name},
+                      {"value", exact},
+                      {"spread", allowed.spread},
+                      {"mesh", allowed.mesh},
+                      {"computed", computed}});
 }
 
-ordered_json Study::meaning(const std::string &name, const ordered_json &row) const
+bool Study::is_compared(const std::string &key)
 {
-   if (row.contains(name)) { return row[name]; }
-   if (results.contains(name) && results[name].is_primitive()) { return results[name]; }
-   return options_.values().contains(name) ? options_.values()[name] : ordered_json();
+   // A text of 60 kB is searched once for each key; the reader knows what its entries say.
+   const auto [known, is_new] = compared_.try_emplace(key, false);
+   if (is_new) { known->second = references_.find('"' + key + '"') != std::string::npos; }
+   return known->second;
 }
 
 void Study::compare_references()
 {
-   for (const Found &found : found_)
-   {
-      references_.compare(
-         found.key, found.computed, found.error,
-         [&](const std::string &name) { return meaning(name, found.row); }, compared_);
-   }
    results["references"] = ordered_json::array();
-   if (compared_.empty()) { return; }
+   if ((found_.empty() && closed_.empty()) || !writes()) { return; }
+   ordered_json values = options_.values();
+   for (const auto &[key, x] : results.items())
+   {
+      if (x.is_primitive()) { values[key] = x; }
+   }
+   const ordered_json answer = ask_reader(
+      {{"study", name_}, {"values", values}, {"found", found_}, {"closed", closed_}});
+   if (answer.is_null())
+   {
+      say("nothing is compared with references: that needs Python 3 (Debian: python3)");
+      return;
+   }
    std::size_t width = 8;
-   for (const Reference &one : compared_) { width = std::max(width, characters(one.name)); }
+   for (const ordered_json &one : answer["rows"])
+   {
+      width = std::max(width, characters(one["name"]));
+   }
+   if (answer["rows"].empty()) { return; }
    ResultTable &all = table("references", {{"quantity"},
                                            {"", padded("quantity", width)},
                                            {"reference", "reference", "%.5g"},
@@ -293,16 +322,18 @@ void Study::compare_references()
                                            {"verdict", "outside of its ±"},
                                            {"tolerance"},
                                            {"outside"}});
-   for (const Reference &one : compared_)
+   const auto number = [](const ordered_json &x)
+   { return x.is_null() ? none : x.get<double>(); };
+   for (const ordered_json &one : answer["rows"])
    {
-      row(all, {one.name, padded(one.name, width), one.value, one.allowed.spread,
-                one.allowed.mesh, one.thesis, one.computed, one.difference(), one.verdict(),
-                one.allowed.all(), one.outside()});
+      const double value = number(one["value"]), computed = number(one["computed"]);
+      row(all, {one["name"], padded(one["name"], width), value, number(one["spread"]),
+                one["mesh"], number(one["thesis"]), computed, computed - value, one["verdict"],
+                number(one["tolerance"]), one["outside"]});
    }
-   for (const std::string &note :
-        references_.notes([&](const std::string &name) { return meaning(name, {}); }))
+   for (const std::string line : answer["notes"])
    {
-      std::printf("%s", wrapped(note, 2).c_str());
+      std::printf("%s", wrapped(line, 2).c_str());
    }
 }
 
@@ -330,9 +361,21 @@ void Study::finish()
    // Its results come before what only shows them.
    ordered_json run = results;
    run["shown"] = shown(all);
+   write_long_frames(run["shown"]["marches"]);
    write_json(run, json_);
    write_csv(all, code != 0 && all.empty() ? "" : csv_);
    show_results(run);
+}
+
+void Study::write_long_frames(ordered_json &marches) const
+{
+   constexpr std::size_t most = 1 << 20;
+   if (json_.empty() || marches.empty() || !writes()) { return; }
+   const std::string text = marches.dump();
+   if (text.size() <= most) { return; }
+   const std::string file = json_ + ".frames";
+   cattaneo::write_whole(file, text);
+   marches = fs::path(file).filename().string();
 }
 
 void Study::say_more(const cattaneo::BlasKernels &kernels)

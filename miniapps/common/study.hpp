@@ -4,7 +4,6 @@
 #include "common/film.hpp"
 #include "common/miniapp.hpp"
 #include "common/options.hpp"
-#include "common/references.hpp"
 #include "common/scene.hpp"
 #include "common/table.hpp"
 #include "common/text.hpp"
@@ -15,6 +14,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 
 namespace miniapp
@@ -30,6 +30,14 @@ struct Outcome
 /// Leaves a study that was to do something else instead, and has (--check).
 struct Done
 {
+};
+
+/** How far a closed form may be from what was computed, in the units of the value: its own
+    spread, and the share of the mesh and of the increments, where that can be said. */
+struct Allowed
+{
+   Allowed(double spread_, double mesh_ = 0) : spread(spread_), mesh(mesh_) {}
+   double spread, mesh;
 };
 
 /** Options, results and outputs of a study, each stated once: an option with its check; a value
@@ -64,8 +72,8 @@ public:
    {
       options_.only_if(used, names, why);
    }
-   /// Adds those that all studies have, and parses. @param json short name of --json
-   void parse(const char *json = "json");
+   /// Adds those that all studies have, and parses.
+   void parse();
    /// True if a picture is wanted.
    bool draws() const { return has_picture() || !html_.empty(); }
    /// Is everything to be printed, and not only what most readers ask for?
@@ -149,19 +157,20 @@ private:
    void finish();
    /// What --verbose prints at the end.
    void say_more(const cattaneo::BlasKernels &kernels);
+   /// Has references.json an entry of this study with that key?
+   bool is_compared(const std::string &key);
+   /// The package cattaneo_show compares what was found with references.
    void compare_references();
    /// The tables and panels that have something in them.
    std::vector<Sheet> sheets() const;
    /// What pictures and the page show beside the results.
    nlohmann::ordered_json shown(const std::vector<Sheet> &sheets) const;
    void show_results(const nlohmann::ordered_json &run) const;
-   /// What a name means: a column of the row, a single result or an option.
-   nlohmann::ordered_json meaning(const std::string &name,
-                                  const nlohmann::ordered_json &row) const;
+   /// Increments of more than a megabyte go to a file of their own, FILE.frames beside the
+   /// JSON, whose name takes their place.
+   void write_long_frames(nlohmann::ordered_json &marches) const;
 
    Options options_;
-   References references_;
-   std::vector<Reference> compared_;
    std::string name_, json_, csv_, plot_, html_, save_, sweep_, sweep_results_;
    /// Removes what is in it when it goes.
    struct Begun
@@ -176,13 +185,11 @@ private:
    int more_films_ = 0;                                              ///< not on the page
    nlohmann::ordered_json values_ = nlohmann::ordered_json::array(); ///< as they are printed
    std::vector<std::function<Sheet()>> sheets_; ///< in the order of the figure
-   struct Found
-   {
-      std::string key;
-      double computed, error;
-      nlohmann::ordered_json row;
-   };
-   std::vector<Found> found_; ///< to be compared at the end
+   /// To be compared at the end: values with their keys, and closed forms.
+   nlohmann::ordered_json found_ = nlohmann::ordered_json::array(),
+                          closed_ = nlohmann::ordered_json::array();
+   std::string references_;               ///< the text of references.json, if it has the study
+   std::map<std::string, bool> compared_; ///< what is_compared() said
    Eigen::Index nodes_ = 0;
    int dofs_ = 0;
    bool check_ = false, verbose_ = false, checked_ = false, saved_ = false;

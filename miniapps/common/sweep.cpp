@@ -5,11 +5,9 @@
 
 #include <cattaneo/algebra/blas_kernels.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <unistd.h>
 
 namespace miniapp
 {
@@ -148,19 +146,14 @@ void run_sweep(const Study &study, const std::string &name, const std::string &s
    {
       swept.push_back({{"name", key.name}, {"values", numbers_of(key.values)}});
    }
-   std::string plan = (fs::temp_directory_path() / "cattaneo_sweep_XXXXXX").string();
-   const int made = mkstemp(plan.data());
-   require(made >= 0, "option --sweep: cannot write a file into '",
-           fs::temp_directory_path().string(), "'");
-   close(made);
-   cattaneo::write_whole(plan,
-                         ordered_json{{"program", fs::read_symlink("/proc/self/exe").string()},
-                                      {"study", name},
-                                      {"options", study.options().values()},
-                                      {"keys", swept},
-                                      {"points", points},
-                                      {"blas_kernels", cattaneo::blas_kernels().name}}
-                            .dump());
+   const std::string plan = temporary_file(
+      "cattaneo_sweep", ordered_json{{"program", fs::read_symlink("/proc/self/exe").string()},
+                                     {"study", name},
+                                     {"options", study.options().values()},
+                                     {"keys", swept},
+                                     {"points", points},
+                                     {"blas_kernels", cattaneo::blas_kernels().name}}
+                           .dump());
    become_reader({"--sweep", plan});
    fs::remove(plan);
    require(false, "option --sweep needs Python 3, which is not installed (Debian: python3)");

@@ -9,19 +9,19 @@ import runs
 import sketches
 from chapter import Chapter
 
-EDGE = "fretting -f 0.8"
+EDGE = "fretting --friction 0.8"
 FIELD = "./test -R NearEdgeField"  # the field against numerical integrals of its tractions
 # Edges whose crack, at the length a0, is driven just as hard as the threshold: K_N for X = 0.2, K_T for its Y.
-CRITICAL = ["fretting -p kn -kn 145.480218262 -kt 39.142037 -f 0.8", "fretting -p kn -kn 145.480218262 -kt 75.593 -f 0.3"]
+CRITICAL = ["fretting --pad kn --k-n 145.480218262 --k-t 39.142037 --friction 0.8", "fretting --pad kn --k-n 145.480218262 --k-t 75.593 --friction 0.3"]
 DATA = "miniapps/data/fretting_records"
-TESTS = {"a": (f"fretting -m Al -rec {DATA}.csv", "aluminium alloy, cylinders"),
-         "b": (f"fretting -m Ti6Al4V -rec {DATA}_titanium.csv", "titanium alloy, cylinders"),
-         "c": (f"fretting -m Ti6Al4V -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -rec {DATA}_rounded.csv", "titanium alloy, flat pads with round edges")}
-NICKEL = f"fretting -m Nickel -rec {DATA}_nickel.csv"
-TOGETHER = f"fretting -rec {DATA}_together.csv"
+TESTS = {"a": (f"fretting --material Al --records {DATA}.csv", "aluminium alloy, cylinders"),
+         "b": (f"fretting --material Ti6Al4V --records {DATA}_titanium.csv", "titanium alloy, cylinders"),
+         "c": (f"fretting --material Ti6Al4V --pad flat-rounded --radius 3 --flat 3 --normal-load 1000 --shear-load 20 --records {DATA}_rounded.csv", "titanium alloy, flat pads with round edges")}
+NICKEL = f"fretting --material Nickel --records {DATA}_nickel.csv"
+TOGETHER = f"fretting --records {DATA}_together.csv"
 REDUCED = TESTS["c"][0] + " -lr 0.5"
 DEPTHS = (0.05, 0.1, 0.2)
-PLANES = [f"fretting -p fe -Q 50 -bs 0 --averaging-depth {depth}" for depth in DEPTHS]
+PLANES = [f"fretting --pad fe --shear-load 50 --bulk 0 --averaging-depth {depth}" for depth in DEPTHS]
 PROOFS = {"2.9": "./test -R 'Measures|EdgeCrack'", "2.10": "./test -R SlipEnergy"}
 INVENTED = "The tests shown are *invented*: those of the thesis are in papers whose numbers its text doesn't give. Put your own in such a file. "
 
@@ -161,7 +161,7 @@ CHAPTER.sketch("2.1", "The contact and its edge", """
 A pad is pressed by P, sheared by Q, and the specimen below is pulled in step (σ). Zoomed in on the trailing edge: the pressure, the singular shear of full adhesion, and the shear
 with slip over the length d.""", sketches.edge)
 for number, friction in (("2.2a", 0.8), ("2.2b", 0.6)):
-    figure(number, f"Equivalent stress near the edge, f = {friction}", f"fretting -f {friction}", """
+    figure(number, f"Equivalent stress near the edge, f = {friction}", f"fretting --friction {friction}", """
 Von Mises' stress over K_N √d below the surface; t > 0 is under the pad, 0 < t < d slips.""", fields)
 figure("2.3", "Equivalent stress along the surface", EDGE, """
 It is nearly constant over the slip zone, so that this yields almost at once: the smaller f, the less so.""", lambda run: f.panels((run, "surface", {"title": "", "rename": plain})), wrong="""
@@ -171,7 +171,7 @@ Lower curve: the load at which some point yields, upper one: the whole slip zone
 figure("2.4 (Hertz)", "Where a Hertz contact is severest", EDGE, """
 The remark before figure 2.3: with little friction the severest point lies below the surface, with more at the edge. The friction from which on it is at the surface, for a Hertz contact
 sheared by Q: about 0.26 if it slides, more in partial slip.""", lambda run: f.panels((run, "transition", {"title": ""})), rows="severest")
-figure("Table 2.1", "Materials", "fretting -m Al", "The records that the program ships; the thesis' values, with their sources in its bibliography.", lambda run: materials())
+figure("Table 2.1", "Materials", "fretting --material Al", "The records that the program ships; the thesis' values, with their sources in its bibliography.", lambda run: materials())
 for letter, (command, words) in TESTS.items():
     figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge, √(8 f K_N K_T) at peak load. Hollow: not broken.",
            tests("stress"), wrong="""
@@ -221,7 +221,7 @@ The thesis hopes that the asymptotes serve conventional multiaxial criteria too.
 elements. Findley's criterion, that of Smith, Watson and Topper, and that of Fatemi and Socie, each on its critical plane and of the stresses of the whole steady cycle, averaged over a depth below the surface; each over
 its value in a plain specimen at the fatigue limit. Stresses fall so steeply that the depth decides the verdict (right; bars are of the mesh), which the asymptotic measures don't need: they have a length of the
 material, a0 = 0.09 mm here. The range of the stress at the edge asks for failure, the crack that starts there stops, and K_II is at its threshold. Any other solved body: `docs/python.md`.""", planes)
-figure("A", "A flat pad with round edges", "fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V", """
+figure("A", "A flat pad with round edges", "fretting --pad flat-rounded --radius 3 --flat 3 --normal-load 1000 --shear-load 20 --bulk 20 --material Ti6Al4V", """
 Appendix A: pressure of a pad with a flat of half-width b and edges of radius R; the edge alone, of a flat without end (A.1); and what is left of both very close to the edge, K_N √t.""",
        lambda run: f.panels((run, "profile", {"title": "whole"}), (run, "profile", {"title": "at the edge", "limits_x": "-1,-0.94"})), wrong="""
 (A.2) has a minus sign too many, and the thesis has one symbol for two constants: far from the edge p = K_P/√x, at it p = K_N √x with K_N = 3 K_P/a_r.""",

@@ -6,7 +6,7 @@ from chapter import Chapter
 
 STEPS = "shakedown -find friction -tractions -transposed"
 MARCHES = "shakedown -find friction -march"
-MAP = "shakedown -find load -map -load-ratios -transposed -lower"
+MAP = "shakedown -find load -map -loads-over-friction -transposed -lower"
 
 CHAPTER = Chapter(4, "Shakedown limit algorithms", """
 A square block, |x| < a, stands on a half-plane of the same material. A force P0 presses it, then a shear force goes to
@@ -148,7 +148,7 @@ For each reversal R the contact shakes down, from the right start, below its lin
 The more the load reverses, the less the contact bears.""", limits, rows="λ/f", wrong="""
 At R = -1 the thesis reads λ/f = 0.68; it is 0.804 at f = 0.85, a linear programme with bounds that meet. Where its value comes from is not known: the coupling block transposed, which gives the thesis' f of
 figure 4.17, gives another one (table).""",
-       proof="shakedown -find load -load-ratios -transposed")
+       proof="shakedown -find load -loads-over-friction -transposed")
 figure("4.19", "Marches from three starts", MARCHES, """
 Loss in each cycle at f = 0.85, λ = 0.8 and R = -0.5, from no slip, from the optimal slip and from its negative. From the
 optimal slip nothing is ever lost, which checks the optimum (and is not on a logarithmic axis). The others shake down, slowly. The plateau at last, of a

@@ -5,8 +5,8 @@ import sketches
 from chapter import Chapter
 
 BONDED = 'plane_receding -domain 1e4 -overhang 0.8 -bonded "0.1 0.18 0.3 0.4 0.5 0.6 0.7 0.8"'
-SMALL = 'plane_receding -map "0.2 0.4 0.6 0.8 0.9 1 1.1 1.2 1.3 1.4 1.6 1.8 2 2.5 3" -map-friction "0.3 0.5 0.7 1"'
-LARGE = 'plane_receding -map 4 -map-friction "0.1 0.15 0.2 0.25 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.7 2"'
+SMALL = 'plane_receding -map-overhang "0.2 0.4 0.6 0.8 0.9 1 1.1 1.2 1.3 1.4 1.6 1.8 2 2.5 3" -map-friction "0.3 0.5 0.7 1"'
+LARGE = 'plane_receding -map-overhang 4 -map-friction "0.1 0.15 0.2 0.25 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.7 2"'
 LOADING = "plane_receding -friction 0.7"
 UNLOADING = 'plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -lowest 0.03'
 BLOCK = "plane_receding -obstacle th0 -overhang 2 -friction 0.7 -unload 0.5"

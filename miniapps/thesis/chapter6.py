@@ -7,12 +7,12 @@ import sketches
 from chapter import Chapter
 
 LOADS = '"-0.04 -0.03 -0.02 -0.01 0.01 0.02 0.03 0.04"'
-SWEEP = f'lap_joint -spacing 0.01 -sweep-friction "0.2 0.5 0.8" -sweep-load {LOADS}'
+SWEEP = f'lap_joint -spacing 0.01 -map-friction "0.2 0.5 0.8" -map-load {LOADS}'
 # Changes of c are of the size of 0.01 t: nodes lie close enough for a hundredth of that.
-EXTENT = [f'lap_joint -spacing 0.0025 -friction 0.8 -sweep-load {LOADS}', "lap_joint -spacing 0.0025 -friction 0.8 -load 0.01", "lap_joint -spacing 0.0025 -friction 0.8 -load 0.03",
+EXTENT = [f'lap_joint -spacing 0.0025 -friction 0.8 -map-load {LOADS}', "lap_joint -spacing 0.0025 -friction 0.8 -load 0.01", "lap_joint -spacing 0.0025 -friction 0.8 -load 0.03",
           "lap_joint -friction 0.5 -load -0.04"]
 # From -0.0281 p0 t on the free ends touch at w = 2 t of the same force, from -0.0283 at w = t/2 of the same pressure.
-WIDTHS = 'lap_joint -spacing 0.005 -friction 0.5 -sweep-load "-0.025 0.025" -sweep-width "0.5 1 2"'
+WIDTHS = 'lap_joint -spacing 0.005 -friction 0.5 -map-load "-0.025 0.025" -map-width "0.5 1 2"'
 TOUCH = "lap_joint -touch -load -0.04"
 
 
@@ -121,7 +121,7 @@ figure("6.5", "Contact and stick against the load", EXTENT, """
 Changes of the half-widths of contact and of stick from the width under P alone, in the steady cycle at f = 0.8. Bars: half of the distance of nodes, to which c is known. The table has the steady c at
 f = 0.5 in compression as well.""", extent, rows="a0/t|c/t, steady", wrong="""
 The thesis has both changes positive in compression. That of the contact is. The stick zone shrinks whichever way T acts, if little in compression: slip enters from the edge of the
-contact, which is at a0 again whenever T is back at 0, so that c can't exceed a0.""", proof='lap_joint -spacing 0.0025 -friction 0.8 -sweep-load "-0.04 -0.02"')
+contact, which is at a0 again whenever T is back at 0, so that c can't exceed a0.""", proof='lap_joint -spacing 0.0025 -friction 0.8 -map-load "-0.04 -0.02"')
 for number, load, friction, text in (
         ("6.6a", 0.04, 0.2, "Zones in time: 1 is the end of tightening, then T goes up and down. An infinitesimal decrease of T makes everything stick; then slip the other way "
          "sets in, but not as far as that of the pull had gone. The upper lap is pulled to the left: what the thesis calls forward slip is backward in these pictures. From step 2 on all cycles are the same."),

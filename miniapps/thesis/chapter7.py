@@ -11,9 +11,9 @@ ADHESION = 'axisymmetric_receding -bonded "3.75 4.25 4.7"'
 SMALL = "axisymmetric_receding -load-radius 0.5 -friction 0.9"
 CRITICAL = 'axisymmetric_receding -critical "2 3 4 5 6 8" -critical-friction "0 0.5 0.8" -critical-bonded'
 LOADING = 'axisymmetric_receding -load-levels "0.25 0.5 0.75 1"'
-MAP = 'axisymmetric_receding -map "0.25 0.5 1 1.5 2 2.5 3 3.4 3.6 3.8 4 4.2 4.4 4.6 4.8 5"'
+MAP = 'axisymmetric_receding -map-load-radius "0.25 0.5 1 1.5 2 2.5 3 3.4 3.6 3.8 4 4.2 4.4 4.6 4.8 5"'
 UNLOADING = 'axisymmetric_receding -unload "0.9 0.5 0.3 0.1"'
-CYCLES = 'axisymmetric_receding -cycle-to "0.1 0.5 0.8 0.95" -load-cycles 40 -steps 40'
+CYCLES = 'axisymmetric_receding -cycle-to "0.1 0.5 0.8 0.95" -cycles 40 -increments 40'
 TORSION = 'axisymmetric_receding -torque "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"'
 
 CHAPTER = Chapter(7, "Axisymmetric receding contact", """

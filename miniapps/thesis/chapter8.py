@@ -6,10 +6,10 @@ from chapter import Chapter
 PAD = "design"
 FRICTIONS = (0.7, 0.85, 1)
 MISMATCH = [f'shakedown -nodes 65 -find load -friction {friction:g} -mismatch "0.01 0.1 0.3 1 3 10 100" -mismatch-poisson "0 0.15 0.3 0.4 0.49"' for friction in FRICTIONS]
-BOLTS = ['lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025', 'lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025']
+BOLTS = ['lap_joint -bolt-positions "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025', 'lap_joint -bolt-positions "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025']
 LOWER = ["shakedown -find load -nodes 65 -lower -starts 8", "shakedown -find load -obstacle rigid -nodes 65 -friction 0.6 -lower -starts 8"]
-MAP = "shakedown -find load -map -load-ratios -transposed -lower"
-RECEDING = 'plane_receding -spacing 0.04 -corner 0.01 -steps 20 -cycles 40 -cycle-to "0.2 0.4 0.6 0.8 0.9 0.95"'
+MAP = "shakedown -find load -map -loads-over-friction -transposed -lower"
+RECEDING = 'plane_receding -spacing 0.04 -corner 0.01 -increments 20 -cycles 40 -cycle-to "0.2 0.4 0.6 0.8 0.9 0.95"'
 
 CHAPTER = Chapter(8, "Further work", """
 The thesis ends with five proposals. What became of them here.

@@ -1,6 +1,7 @@
 """The panels of a run, as its JSON has them."""
 
 import json
+import pathlib
 from collections import OrderedDict, defaultdict
 
 
@@ -19,6 +20,13 @@ def read(file):
         raise Refused(f"file '{file}' is no JSON: {error}") from error
     if not isinstance(run, dict) or not isinstance(run.get("shown"), dict):
         raise Refused(f"file '{file}' is no run: it has no key 'shown', which programs write with --json")
+    marches = run["shown"].get("marches")
+    if isinstance(marches, str):  # long ones are in a file beside it
+        beside = pathlib.Path(file).with_name(marches)
+        try:
+            run["shown"]["marches"] = json.loads(beside.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise Refused(f"file '{beside}' with the increments of '{file}' cannot be read: {getattr(error, 'strerror', error)}") from error
     return run
 
 

@@ -143,9 +143,9 @@ def seeds(programs):
         ("contact", ["--case", "rigid.json", "--load-state", "state.json"],
          {"rigid.json": json.dumps(rigid, indent=1), "state.json": None, **meshes}),
         ("shakedown", ["--reduced", "saved.json", "--held", "P", "--cycled", "Q", "--friction", "0.3", "--find", "load",
-                       "--reversal", "-1"], {"saved.json": None}),
+                       "--load-ratio", "-1"], {"saved.json": None}),
         ("shakedown", ["--reduced", "saved.json", "--held", "P", "--cycled", "Q", "--march", "--cycles", "3", "--closed",
-                       "--lambda-max", "0.1", "--reversal", "-1"], {"saved.json": None}),
+                       "--lambda-max", "0.1", "--load-ratio", "-1"], {"saved.json": None}),
     ]
     for name, meshes_of in (("dovetail", ("dovetail_root", "dovetail_disc")),
                             ("rounded_punch", ("rounded_punch", "rounded_punch_block"))):

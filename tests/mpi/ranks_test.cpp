@@ -131,17 +131,16 @@ TEST_P(OnRanks, AgreesWithTheSerialFlavour)
 
 INSTANTIATE_TEST_SUITE_P(
    Studies, OnRanks,
-   testing::Values(Study{"square_punch", "-order 1 -nodes 33"},
-                   Study{"square_punch", "-obstacle half-plane -nodes 33 -cycles 2"},
-                   Study{"hertz", "-nodes 41"},
-                   Study{"hertz", "-nodes 41 -body block -shear none"},
-                   Study{"plane_receding",
-                         "-spacing 0.1 -corner 0.02 -friction 0.7 -unload 0.5"},
-                   Study{"axisymmetric_receding", "-spacing 0.1 -torque 0.5"},
-                   Study{"lap_joint", "-spacing 0.05 -increments 8"},
-                   Study{"shakedown", "-nodes 17"}, Study{"fretting", "-p fe -Q 50 -nodes 41"},
-                   Study{"contact", "-case meshes/rounded_punch.json"},
-                   Study{"contact", "-case meshes/bolted_joint.json -order 1 -cycles 1"}));
+   testing::Values(
+      Study{"square_punch", "-order 1 -nodes 33"},
+      Study{"square_punch", "-obstacle half-plane -nodes 33 -cycles 2"},
+      Study{"hertz", "-nodes 41"}, Study{"hertz", "-nodes 41 -body block -shear none"},
+      Study{"plane_receding", "-spacing 0.1 -corner 0.02 -friction 0.7 -unload 0.5"},
+      Study{"axisymmetric_receding", "-spacing 0.1 -torque 0.5"},
+      Study{"lap_joint", "-spacing 0.05 -increments 8"}, Study{"shakedown", "-nodes 17"},
+      Study{"fretting", "--pad fe --shear-load 50 --nodes 41"},
+      Study{"contact", "-case meshes/rounded_punch.json"},
+      Study{"contact", "-case meshes/bolted_joint.json -order 1 -cycles 1"}));
 
 class Distributed : public testing::TestWithParam<Study>
 {

@@ -59,7 +59,7 @@ def test_narrow_load_meets_the_references(run):
 
 
 def test_cycles_of_the_load_begin_as_unloading_does(run):
-    got = disc(run, f"-cycle-to '0.5 0.9' -load-cycles 12 -steps 40 -spacing 0.04 -csv '{run.folder}/disc'")
+    got = disc(run, f"-cycle-to '0.5 0.9' -cycles 12 -increments 40 -spacing 0.04 -csv '{run.folder}/disc'")
     # Borders at half of the load, and the separation at all of it: studies' notes D.
     zones = run.columns("disc_load_cycle_zones.csv")
     half = [to for time, to in zip(zones["time"], zones["to"]) if abs(time - 1) < 1e-9]
@@ -80,7 +80,7 @@ def test_cycles_of_the_load_begin_as_unloading_does(run):
 @pytest.mark.parametrize("steps", [40, 80])
 def test_unloading_meets_the_references_whatever_the_steps(run, steps):
     """1 - 40/80 is not 0.5 to the last bit: that must not become a step of its own."""
-    got = disc(run, f"-unload '0.9 0.5 0.3' -steps {steps}")
+    got = disc(run, f"-unload '0.9 0.5 0.3' -increments {steps}")
     # Borders of unloading: ±0.01, separation to its digits.
     got.meets({**LOADED,
                "d/t at P/P0 = 0.9": (3.670, SPREAD, READ_OUT),
@@ -94,7 +94,7 @@ def test_unloading_meets_the_references_whatever_the_steps(run, steps):
 
 
 def test_what_does_not_twist_has_no_circumferential_unknowns(run):
-    smooth, rough, twisted = (disc(run, "-spacing 0.1 " + more) for more in ("-friction 0", "", "-torque 0.5 -steps 10"))
+    smooth, rough, twisted = (disc(run, "-spacing 0.1 " + more) for more in ("-friction 0", "", "-torque 0.5 -increments 10"))
 
     def counts(key):
         return [one["counters"][key] for one in (smooth, rough, twisted)]
@@ -105,7 +105,7 @@ def test_what_does_not_twist_has_no_circumferential_unknowns(run):
 
 
 def test_maps_condense_once_per_disc(run):
-    got = disc(run, "-map '0.5 1.5 2.5 3.5' -critical '3 5'")
+    got = disc(run, "-map-load-radius '0.5 1.5 2.5 3.5' -critical '3 5'")
     assert got["counters"]["factorisations"] == 3
     assert len(got["map"]) == 8
     assert len(got["critical_load_radius"]) == 6
@@ -123,7 +123,7 @@ def test_maps_condense_once_per_disc(run):
 
 @pytest.mark.parametrize("twist", ["top", "traction"])
 def test_cycles_balance_their_energy(run, twist):
-    got = disc(run, "-spacing 0.1 -steps 20 -cycles 3 -amplitude 0.6 -twist " + twist)
+    got = disc(run, "-spacing 0.1 -increments 20 -twist-cycles 3 -amplitude 0.6 -twist " + twist)
     assert abs(got["energy_imbalance"]) < 0.01  # 20 steps
     assert len(got["cycles"]) == 3
     assert all(cycle["dissipation"] > 0 for cycle in got["cycles"])
@@ -132,7 +132,7 @@ def test_cycles_balance_their_energy(run, twist):
 
 
 def test_no_torque_beyond_the_spinning_limit(run):
-    got = disc(run, "-spacing 0.1 -steps 40 -twist traction -torque '0.5 1.1'", code=2)
+    got = disc(run, "-spacing 0.1 -increments 40 -twist traction -torque '0.5 1.1'", code=2)
     assert got["status"] == "gross sliding"
     assert len(got["torsion"]) == 1
     assert got["event_loads"]["a = 2.5"] == 1
@@ -141,15 +141,15 @@ def test_no_torque_beyond_the_spinning_limit(run):
 
 def test_every_way_of_twisting_meets_the_same_limit(run):
     for twist in ("top", "loaded", "rim"):
-        got = disc(run, "-spacing 0.1 -steps 20 -torque 0.5 -twist " + twist)
+        got = disc(run, "-spacing 0.1 -increments 20 -torque 0.5 -twist " + twist)
         near(got["torsion"][0]["torque"], 0.5, 2e-6)
         near(got["torque_max"] / got["torque_limit"], 1, 0.01)
-    assert disc(run, "-spacing 0.1 -steps 20 -rotation '1 20'")["torsion"][1]["rotation"] == 20
+    assert disc(run, "-spacing 0.1 -increments 20 -rotation '1 20'")["torsion"][1]["rotation"] == 20
 
 
 @pytest.mark.parametrize("options", [
     "-torque 0.5 -rotation 1", "-friction -1", "-load-radius 6", "-twist sideways", "-rotation 1 -twist traction", "-amplitude 2",
-    "-unload 1.5", "-map 7", "-friction 0 -torque 0.5", "-domain 3", "-steps 1", "-critical -1", "-map 2 -map-friction ''",
+    "-unload 1.5", "-map-load-radius 7", "-friction 0 -torque 0.5", "-domain 3", "-increments 1", "-critical -1", "-map-load-radius 2 -map-friction ''",
 ])
 def test_bad_options_are_one_sentence(run, options):
     run.refuses("axisymmetric_receding", shlex.split(options), [])

@@ -34,7 +34,7 @@ def test_compares_with_the_uniform_pressure_where_the_gap_may_have_its_profile(r
 
 def test_ends_where_derivatives_jump(run):
     """Where responses bend at the optimum the search ends, and a sweep finds nothing better."""
-    got = run.line("design --goal loss --shear 0.5 --scene punch --profile crown --nodes 17 --lines 16")
+    got = run.line("design --goal loss --amplitude 0.5 --scene punch --profile crown --nodes 17 --lines 16")
     assert got["best_of_lines"] <= 1e-4
     assert got["design"] == "optimal" or got["stationarity"] is None
     assert "return status" not in got.output
@@ -43,7 +43,7 @@ def test_ends_where_derivatives_jump(run):
 def test_says_that_it_was_stopped(run):
     """Ctrl-C, long before it would be done."""
     # In the foreground: otherwise timeout also signals its group, a second Ctrl-C, which ends a program at once.
-    got = run("design", *"--goal loss --shear 0.5 --scene punch --profile free --nodes 129 --increments 50".split(), code=2,
+    got = run("design", *"--goal loss --amplitude 0.5 --scene punch --profile free --nodes 129 --increments 50".split(), code=2,
               launcher=[*STOPPED_AFTER, "4"])
     assert got["status"] == got["design"] == "stopped"
     assert got["message"] == "the design was asked to stop"

@@ -64,13 +64,13 @@ class CylinderOnHalfPlane:
 
 
 @pytest.mark.parametrize("options, contact", [
-    ("-f 0.7 -Q 50", CylinderOnHalfPlane(50)),
-    ("-f 0.7 -Q 100 -lr 0", CylinderOnHalfPlane(100, load_ratio=0)),
-    ("-f 0.7 -Q 150", CylinderOnHalfPlane(150)),
-    ("-f 0.7 -Q 50 -nodes 201", CylinderOnHalfPlane(50, nodes=201)),
+    ("--friction 0.7 --shear-load 50", CylinderOnHalfPlane(50)),
+    ("--friction 0.7 --shear-load 100 --load-ratio 0", CylinderOnHalfPlane(100, load_ratio=0)),
+    ("--friction 0.7 --shear-load 150", CylinderOnHalfPlane(150)),
+    ("--friction 0.7 --shear-load 50 -nodes 201", CylinderOnHalfPlane(50, nodes=201)),
 ])
 def test_finite_elements_meet_the_closed_forms(run, options, contact):
-    got, closed = run.line("fretting -p fe " + options), run.line("fretting -p hertz " + options)
+    got, closed = run.line("fretting --pad fe " + options), run.line("fretting --pad hertz " + options)
     got.meets(contact.with_energy())
     for key in ("k_n", "k_t_trailing", "k_t_leading", "edge_stress_range"):
         near_relative(got[key], closed[key], 0.01)
@@ -84,7 +84,7 @@ def test_finite_elements_meet_the_closed_forms(run, options, contact):
 
 
 def test_finite_elements_with_bulk_tension_meet_the_closed_forms(run):
-    got = run.line("fretting -p fe -f 0.7 -Q 50 -bs 10")
+    got = run.line("fretting --pad fe --friction 0.7 --shear-load 50 --bulk 10")
     got.meets(CylinderOnHalfPlane(50, bulk=10).with_slip())
     assert got["k_t_trailing"] > -got["k_t_leading"]
     assert got["judged_edge"] == "trailing"
@@ -92,19 +92,19 @@ def test_finite_elements_with_bulk_tension_meet_the_closed_forms(run):
 
 def test_finite_elements_take_bulk_in_the_pad_and_test_records(run):
     # K_T feels the difference of both bulk stresses only.
-    both, one = run.line("fretting -p fe -f 0.7 -Q 50 -bs 10 -bp -20"), run.line("fretting -p fe -f 0.7 -Q 50 -bs 30")
+    both, one = run.line("fretting --pad fe --friction 0.7 --shear-load 50 --bulk 10 --bulk-pad -20"), run.line("fretting --pad fe --friction 0.7 --shear-load 50 --bulk 30")
     both.meets(CylinderOnHalfPlane(50, bulk=30).intensities())
     near_relative(both["k_t_trailing"], one["k_t_trailing"], 1e-6)
 
     run.write("tests.csv", "P,Q,bulk,cycles\n400,60,20,1e6\n300,40,0,2e5\n")
-    run("fretting", "-p", "fe", "-csv", run.folder / "all", "-rec", run.folder / "tests.csv")
+    run("fretting", "--pad", "fe", "-csv", run.folder / "all", "--records", run.folder / "tests.csv")
     # All that is printed line by line is a file as well: edges, and how far to trust it.
     for name, head, rows in (("all_edges.csv", "edge,position,", 2), ("all_validity.csv", "measure,value,trust,text", 5)):
         lines = run.text(name).splitlines()
         assert lines[0].startswith(head)
         assert len(lines) - 1 >= rows
     records = run.columns("all_records.csv")
-    for k, options in enumerate(("-P 400 -Q 60 -bs 20", "-P 300 -Q 40 -bs 0")):
+    for k, options in enumerate(("--normal-load 400 --shear-load 60 --bulk 20", "--normal-load 300 --shear-load 40 --bulk 0")):
         closed = run.line("fretting " + options)
         for column, key in ((6, "threshold_x"), (8, "k_t_range")):
             solved = list(records.values())[column][k]
@@ -190,7 +190,7 @@ def test_critical_planes_under_a_hertz_contact_are_those_of_the_closed_forms(run
     """Stresses of the closed forms of Hertz, Cattaneo and Mindlin round the cycle, averaged over the depth, by criteria of
     [Findley 1959], [Smith 1970] and [Fatemi 1988]."""
     shares = shares_of(pytest.importorskip("numpy"), CylinderOnHalfPlane(100))
-    got = run.line("fretting -p fe -Q 100 --averaging-depth 0.1")
+    got = run.line("fretting --pad fe --shear-load 100 --averaging-depth 0.1")
     assert len(got["planes"]) >= 61
     for row in got["planes"]:
         for key, expected in shares(row["x"], 0.1).items():
@@ -198,7 +198,7 @@ def test_critical_planes_under_a_hertz_contact_are_those_of_the_closed_forms(run
             near(row[key], expected, 0.01)
     # Above the mesh's resolution, and within the contact, there is no answer to be had.
     for strange in ("0.01", "1e6"):
-        refused = run.line("fretting -p fe -Q 100 --averaging-depth " + strange, code=1)
+        refused = run.line("fretting --pad fe --shear-load 100 --averaging-depth " + strange, code=1)
         assert "must be from the spacing of the contact nodes" in refused.output
 
 
@@ -206,7 +206,7 @@ def test_critical_planes_under_a_hertz_contact_are_those_of_the_closed_forms(run
 def test_the_severest_critical_plane_is_within_the_error_of_the_mesh(run):
     """It is found between the places of the figure, and the mesh's own ± holds."""
     shares = shares_of(pytest.importorskip("numpy"), CylinderOnHalfPlane(100))
-    fine = run.line("fretting -p fe -Q 100 -nodes 201 --averaging-depth 0.05")
+    fine = run.line("fretting --pad fe --shear-load 100 -nodes 201 --averaging-depth 0.05")
     beside = [shares(-1.03 + 0.002 * k, 0.05) for k in range(65)]
     for c, key in enumerate(beside[0]):
         expected = max(share[key] for share in beside)
@@ -219,11 +219,11 @@ def test_records_hold_materials_and_pads_of_their_own(run):
     """Tests of several materials, pads and frictions in one file are those of each alone."""
     def correlated(rows, code=0):
         run.write("tests.csv", "series,material,pad,friction,yield,P,radius,flat,Q,bulk,cycles\n" + rows)
-        return run("fretting", "-rec", run.folder / "tests.csv", code=code)
+        return run("fretting", "--records", run.folder / "tests.csv", code=code)
 
     both = correlated("a,Al,,0.7,,800,200,,60,30,1e7\nb,Ti6Al4V,flat-rounded,0.5,500,1000,3,3,110,70,1.4e6\n")
-    for row, options in zip(both["records"], ("-m Al -f 0.7 -P 800 -r 200 -Q 60 -bs 30",
-                                              "-m Ti6Al4V -f 0.5 -k 500 -p flat-rounded -P 1000 -r 3 -b 3 -Q 110 -bs 70"), strict=True):
+    for row, options in zip(both["records"], ("--material Al --friction 0.7 --normal-load 800 --radius 200 --shear-load 60 --bulk 30",
+                                              "--material Ti6Al4V --friction 0.5 --shear-yield 500 --pad flat-rounded --normal-load 1000 --radius 3 --flat 3 --shear-load 110 --bulk 70"), strict=True):
         one = run.line("fretting " + options)
         for key in ("edge_stress_range", "threshold_x", "design_y", "k_t_range"):
             near_relative(row[key], one[key], 1e-12)
@@ -238,7 +238,7 @@ def test_levels_divide_broken_from_lasting_tests(run):
     """Without bulk stress K_T is in proportion to Q, energy to Q² (largest) and Q³ (in all)."""
     def levels(rows, *options):
         run.write("tests.csv", "Q,cycles,runout\n" + rows)
-        return run("fretting", *"-P 400 -f 0.7 -bs 0 -rec".split(), run.folder / "tests.csv", *options, "-csv", run.folder / "t")
+        return run("fretting", *"--normal-load 400 --friction 0.7 --bulk 0 --records".split(), run.folder / "tests.csv", *options, "-csv", run.folder / "t")
 
     # Any level between 20 and 30 has the run-out of 40 on its wrong side, between 40 and 50 the broken 30: the first gap is the
     # wider one.
@@ -256,7 +256,7 @@ def test_levels_divide_broken_from_lasting_tests(run):
     assert reversed_["wrong"] == 2
     assert "dividing_levels" not in levels("10,1e6,0\n20,1e6,0\n").results
     # The threshold of R = -1 at R = 0.5, reduced to the same largest value: by 4.
-    levels("10,1e6,0\n20,1e7,1\n", "-lr", 0.5)
+    levels("10,1e6,0\n20,1e7,1\n", "--load-ratio", 0.5)
     last = {}
     for line in run.text("t_mode_two.csv").splitlines():
         for name in ("mode II threshold,", "reduced to R = 0.5 at most,"):
@@ -272,27 +272,27 @@ def test_thresholds_are_the_sheets(run, friction, ordinate):
     """Fig. 2.7: X = K_N a0/ΔK_th = 0.2, curve A."""
     threshold = 4.5 * math.sqrt(1000)
     length = (threshold / 500) ** 2 / math.pi
-    got = run("fretting", *"-p kn -kt 20 -m Ti6Al4V -kn".split(), f"{0.2 * threshold / length:.12g}", "-f", friction)
+    got = run("fretting", *"--pad kn --k-t 20 --material Ti6Al4V --k-n".split(), f"{0.2 * threshold / length:.12g}", "--friction", friction)
     near_relative(got["threshold_x"], 0.2, 1e-10)
     near_relative(got["threshold_y"], ordinate, 1e-6)
 
 
 def test_borderline_designs_are_answered_and_said(run):
     # Nearly sliding: an answer, with a warning.
-    assert run.line("fretting -Q 279.99 -f 0.7")["trust"] == "not to be trusted"
+    assert run.line("fretting --shear-load 279.99 --friction 0.7")["trust"] == "not to be trusted"
     # No shear at all.
-    got = run.line("fretting -Q 0")
+    got = run.line("fretting --shear-load 0")
     assert got["slip_zone"] == 0
     assert got["verdict"] == "arrests"
     # K_T < 0 at the leading edge; a0 much longer than d; plane stress.
-    got = run.line("fretting -Q 5 -sfl 10 -ps")
+    got = run.line("fretting --shear-load 5 --fatigue-limit 10 --plane-stress")
     assert got["k_t_leading"] < 0
     assert "much longer than the slip zone" in got.output
     assert "plane stress" in got.output
     # Finite elements without shear: nothing slips.
-    assert run.line("fretting -p fe -Q 0")["fe"]["trailing"]["slip_zone"] == 0
+    assert run.line("fretting --pad fe --shear-load 0")["fe"]["trailing"]["slip_zone"] == 0
     # A slip zone of one spacing: the intensities hold, the rest is said not to.
-    got = run.line("fretting -p fe -f 0.7 -Q 20")
+    got = run.line("fretting --pad fe --friction 0.7 --shear-load 20")
     got.meets(CylinderOnHalfPlane(20).intensities())
     assert got["fe"]["trailing"]["resolved"] is False
     assert "not resolved" in got.output
@@ -302,7 +302,7 @@ def test_borderline_designs_are_answered_and_said(run):
 def test_edges_that_feel_the_same_are_not_chosen_by_round_off(run, load):
     """Both edges of a contact feel the same where Q goes fully to and fro: the trailing one is judged, whatever the last digits, and
     -Q is the mirror image of Q."""
-    there, back = (run("fretting", "-p", "fe", "-b", 1, "-Q", Q) for Q in (load, -load))
+    there, back = (run("fretting", "--pad", "fe", "--flat", 1, "--shear-load", Q) for Q in (load, -load))
     assert there["judged_edge"] == back["judged_edge"] == "trailing"
     assert there["edge_stress"] > 0
     near_relative(back["edge_stress"], -there["edge_stress"], 1e-6)
@@ -311,15 +311,15 @@ def test_edges_that_feel_the_same_are_not_chosen_by_round_off(run, load):
 @pytest.mark.parametrize("pad", ["hertz", "fe"])
 def test_sliding_is_an_answer_with_its_load(run, pad):
     """f P = 0.7 * 400 N/mm bears no more shear than 280 N/mm: an outcome, not bad input."""
-    got = run.line("fretting -Q 300 -f 0.7 -p " + pad, code=2)
+    got = run.line("fretting --shear-load 300 --friction 0.7 --pad " + pad, code=2)
     assert got["status"] == "gross sliding"
     assert "fP = 280 N/mm" in got.output
 
 
 @pytest.mark.parametrize("options", [
-    "-p ball", "-p kn", "-p kn -kn 1", "-p flat-rounded", "-kn 3", "-b 2", "-f 0", "-f -1", "-P -1", "-P 0", "-Q none", "-r 0", "-lr 1",
-    "-lr -2", "-m Unobtainium", "-nu 0.5", "-E 0", "-kth 0", "-sfl -1", "-c best", "-mf /nonexistent.json", "-rec x.csv",
-    "-p fe -nodes 100", "-p fe -order 0", "-p fe -nodes 5", "-p fe -Q 1e3x", "--unknown", "-Q many", "-Q",
+    "--pad ball", "--pad kn", "--pad kn --k-n 1", "--pad flat-rounded", "--k-n 3", "--flat 2", "--friction 0", "--friction -1", "--normal-load -1", "--normal-load 0", "--shear-load none", "--radius 0", "--load-ratio 1",
+    "--load-ratio -2", "--material Unobtainium", "--poisson 0.5", "--young 0", "--threshold 0", "--fatigue-limit -1", "--criterion best", "--material-file /nonexistent.json", "--records x.csv",
+    "--pad fe -nodes 100", "--pad fe -order 0", "--pad fe -nodes 5", "--pad fe --shear-load 1e3x", "--unknown", "--shear-load many", "--shear-load",
 ])
 def test_bad_options_are_one_sentence_and_exit_code_one(run, options):
     run.refuses("fretting", shlex.split(options), [])

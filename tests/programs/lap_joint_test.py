@@ -24,7 +24,7 @@ def test_it_is_said_where_free_ends_touch(run):
     assert touch < -0.03
     for share in (0.8, 1.2):
         load = f"{share * touch:f}"
-        for way in (f"-load {load}", f"-load 0.01 -sweep-load {load}"):
+        for way in (f"-load {load}", f"-load 0.01 -map-load {load}"):
             assert ("free end of the laps touches" in run.line(narrow + way).output) == (share > 1), (share, way)
 
 
@@ -85,7 +85,7 @@ def test_zones_do_not_depend_on_poissons_ratio(run):
 
 def test_sweep_knows_nothing_of_what_slid_away(run):
     """A pull above f P0 is no row of zeros: where the march did not come to is not known."""
-    held, slid = run.line("lap_joint -spacing 0.05 -increments 5 -sweep-load '0.05 0.3' -sweep-friction 0.2")["sweep"][:2]
+    held, slid = run.line("lap_joint -spacing 0.05 -increments 5 -map-load '0.05 0.3' -map-friction 0.2")["sweep"][:2]
     assert slid["status"] == "gross sliding"
     assert slid["a0"] == held["a0"]  # both were pinched alike
     assert slid["a0"] > 0.5
@@ -106,7 +106,7 @@ def test_what_nothing_pulls_has_no_shear(run):
 
 
 def test_dissipation_falls_with_friction_and_rises_with_load(run):
-    got = run.line("lap_joint -sweep-load '0.02 0.04' -sweep-friction '0.2 0.4 0.8' -spacing 0.00625")
+    got = run.line("lap_joint -map-load '0.02 0.04' -map-friction '0.2 0.4 0.8' -spacing 0.00625")
     losses = [row["dissipation_steady"] for row in got["sweep"]]
     assert len(losses) == 6
     low, high = losses[::2], losses[1::2]
@@ -123,7 +123,7 @@ def test_dissipation_falls_with_friction_and_rises_with_load(run):
 
 
 def test_order_of_tightening_matters_only_for_unequal_laps(run):
-    words = "lap_joint -bolts '-1.2 0 1.2' -friction 0.2 -load 0.1 -spacing 0.025 -increments 20"
+    words = "lap_joint -bolt-positions '-1.2 0 1.2' -friction 0.2 -load 0.1 -spacing 0.025 -increments 20"
     equal, unequal = run.line(words), run.line(words + " -lower-thickness 2")
     assert len(equal["tightening"]) == len(unequal["tightening"]) == 2
     for same, other in zip(equal["tightening"], unequal["tightening"]):

@@ -10,7 +10,7 @@ SPREAD, READ_OUT = 0.003, 0.002
 
 @pytest.mark.rest  # the same run is a sample run with the same values
 def test_loading_and_unloading_meet_the_references_on_a_large_block(run):
-    got = run.line("plane_receding -domain 1e4 -unload '0.9 0.5 0.2 0.1' -steps 50")
+    got = run.line("plane_receding -domain 1e4 -unload '0.9 0.5 0.2 0.1' -increments 50")
     got.meets({"s/t, n = 4, f = 0.7": (1.406, SPREAD, READ_OUT),
                "e/t, n = 4, f = 0.7": (-0.442, SPREAD, READ_OUT),
                "ξ/t of separation, unloaded to p/p0 = 0.9": (-1.336, SPREAD, READ_OUT),
@@ -49,7 +49,7 @@ def test_finite_block_of_the_thesis(run):
 def test_blocks_tend_to_the_half_plane(run):
     """The half-plane without a mesh is that to which blocks tend as they grow. (The references marked HP are those of a block of
     10⁴ t, whose remote tension, a hundredth of p0, still moves e by 0.007 to 0.016.)"""
-    words = "plane_receding -map '1.2 1.6 4' -unload '0.9 0.5 0.2'"
+    words = "plane_receding -map-overhang '1.2 1.6 4' -unload '0.9 0.5 0.2'"
     limit, block = run.line(words), run.line(words + " -domain 1e6")
     tenth = 0.002  # of the spacing
 
@@ -77,7 +77,7 @@ def test_blocks_tend_to_the_half_plane(run):
 
 
 def test_map_over_overhang_and_friction_from_one_condensation(run):
-    got = run.line("plane_receding -domain 1e4 -map '0.4 1.2 1.6 2 4' -spacing 0.04 -corner 0.01 -domain-study")
+    got = run.line("plane_receding -domain 1e4 -map-overhang '0.4 1.2 1.6 2 4' -spacing 0.04 -corner 0.01 -domain-study")
     coarse = 0.004  # a tenth of this spacing
     got.meets({"s/t, n = 4, f = 0.3": (0.903, SPREAD, coarse),
                "e/t, n = 4, f = 0.3": (-1.858, SPREAD, coarse),
@@ -108,7 +108,7 @@ def test_map_over_overhang_and_friction_from_one_condensation(run):
 
 def test_long_free_ends_that_close_at_once_need_a_path(run):
     """Runs of penetrating nodes make the active set cycle."""
-    got = run.line("plane_receding -map '2 2.25 3.5' -map-friction 1 -spacing 0.05")
+    got = run.line("plane_receding -map-overhang '2 2.25 3.5' -map-friction 1 -spacing 0.05")
     assert len(got["map"]) == 3
     assert got["counters"]["pivots"] > 0
     for state in got["map"]:  # nearly independent of n
@@ -132,7 +132,7 @@ def test_poissons_ratio_does_not_matter(run):
 
 
 def test_unloading_hardly_depends_on_the_steps(run):
-    coarse, fine = (run.line(f"plane_receding -unload '0.8 0.5 0.2' -lowest 0.2 -overhang 2.5 -steps {steps}") for steps in (25, 100))
+    coarse, fine = (run.line(f"plane_receding -unload '0.8 0.5 0.2' -lowest 0.2 -overhang 2.5 -increments {steps}") for steps in (25, 100))
     assert len(coarse["levels"]) == len(fine["levels"]) == 3
     for one, other in zip(coarse["levels"], fine["levels"]):
         assert [zone["state"] for zone in one["zones"]] == [zone["state"] for zone in other["zones"]]
@@ -157,7 +157,7 @@ def test_cycles_whose_loss_falls_shake_down(run):
 
 def test_a_map_goes_on_beyond_what_is_not_unique(run):
     """Friction above its critical value has several answers: that is a row, and those after it are the same as without it."""
-    options = "plane_receding -spacing 0.05 -corner 0.01 -map '2 4' -map-friction "
+    options = "plane_receding -spacing 0.05 -corner 0.01 -map-overhang '2 4' -map-friction "
     got, good = run.line(options + "'0.3 50 0.5'", code=2), run.line(options + "'0.3 0.5'")
     states = got["map"]
     assert [state["status"] for state in states] == ["converged"] * 2 + ["not unique"] * 2 + ["converged"] * 2

@@ -106,7 +106,7 @@ def test_loads_that_look_alike_are_not_added(run):
     strip = "plane_receding -spacing 0.1 -corner 0.02"
     near(run.line(strip + " -map '4 4.0000001' -map-friction 0.7")["lowest_bonded_pressure"],
          run.line(strip)["lowest_bonded_pressure"], 1e-9)
-    joint = run.line("lap_joint -sweep-load 0.02 -sweep-width '1 1.0000001' -spacing 0.05 -increments 10")
+    joint = run.line("lap_joint -map-load 0.02 -map-width '1 1.0000001' -spacing 0.05 -increments 10")
     assert joint["sweep"]
     for row in joint["sweep"]:
         near(row["a0"], joint["a0"], 1e-5)
@@ -115,18 +115,18 @@ def test_loads_that_look_alike_are_not_added(run):
 
 @pytest.mark.parametrize("line, components", [
     ("lap_joint -spacing 0.05 -increments 5", 1),
-    ("lap_joint -spacing 0.05 -increments 5 -bolts '-1.2 0 1.2' -touch", 1),
-    ("lap_joint -spacing 0.05 -increments 5 -sweep-load 0.02 -sweep-friction '0.2 0.4'", 1),
+    ("lap_joint -spacing 0.05 -increments 5 -bolt-positions '-1.2 0 1.2' -touch", 1),
+    ("lap_joint -spacing 0.05 -increments 5 -map-load 0.02 -map-friction '0.2 0.4'", 1),
     ("plane_receding -spacing 0.1 -corner 0.02", 1),
-    ("plane_receding -spacing 0.1 -corner 0.02 -map '2 3' -unload 0.5 -steps 5", 1),
-    ("axisymmetric_receding -spacing 0.1 -map '1 2'", 1),
+    ("plane_receding -spacing 0.1 -corner 0.02 -map-overhang '2 3' -unload 0.5 -increments 5", 1),
+    ("axisymmetric_receding -spacing 0.1 -map-load-radius '1 2'", 1),
     ("axisymmetric_receding -spacing 0.1 -friction 0", 0),
-    ("axisymmetric_receding -spacing 0.1 -steps 10 -torque 0.3", 2),
+    ("axisymmetric_receding -spacing 0.1 -increments 10 -torque 0.3", 2),
     ("square_punch -nodes 33", 1),
     ("square_punch -nodes 33 -friction 0 -shear none", 0),
     ("hertz -nodes 33", 1),
     ("contact -case meshes/rounded_punch.json --cycles 1", 1),
-    ("fretting -p fe -f 0.6 -m Ti6Al4V -nodes 41", 1),
+    ("fretting --pad fe --friction 0.6 --material Ti6Al4V -nodes 41", 1),
 ])
 def test_every_study_counts_its_friction_problem(run, line, components):
     """What a study did, whichever it is: tangential unknowns are one a contact node and component with friction, none without; the

@@ -8,7 +8,7 @@ from programs import meshes, near, near_relative, problem
 
 
 def test_meets_its_references(run):
-    got = run.line("shakedown -load-ratios -transposed -lower")
+    got = run.line("shakedown -loads-over-friction -transposed -lower")
     # The studies' notes, part A. Extremes lie between the 201 nodes: second order in their spacing, of a part in two hundred.
     mesh = 7.5e-4
     got.meets({"corner opens at λ": (0.865, 0.002, mesh),
@@ -51,7 +51,7 @@ def test_solves_what_is_asked_for(run):
     assert "friction_limit_transposed" not in friction.results
     assert both["counters"]["limit_solves"] == friction["counters"]["limit_solves"] + 1
     # A ratio that is the limit just found is not found again.
-    assert run.line("shakedown -nodes 33 -find load -load-ratios")["counters"]["limit_solves"] == 3
+    assert run.line("shakedown -nodes 33 -find load -loads-over-friction")["counters"]["limit_solves"] == 3
 
 
 def test_marches_lose_what_the_references_say(run):
@@ -79,7 +79,7 @@ def test_marches_lose_what_the_references_say(run):
 def test_bound_and_march_name_what_they_are_of(run):
     """0.1 % above the bound for a contact that stays closed a march goes on slipping only at nodes that open, which the bound does
     not know."""
-    got = run.line("shakedown -nodes 65 -friction 0.804 -find load -reversal -0.5 -march -cycles 170")
+    got = run.line("shakedown -nodes 65 -friction 0.804 -find load -load-ratio -0.5 -march -cycles 170")
     assert got["load_limit_upper"] < 0.8
     assert "Where nodes open the bounds above do not apply" in got.output
     assert got["marches"]
@@ -127,7 +127,7 @@ def test_only_dundurs_constants_of_a_block_and_its_plane_matter(run):
 @pytest.mark.parametrize("friction, by_corner", [(0.3, True), (0.5, True), (0.6, False), (0.85, False)])
 def test_says_which_limits_are_of_the_mesh(run, friction, by_corner):
     """Below the corner's ratio of tractions, 0.5431, the corner decides; above, the inside does."""
-    got = run("shakedown", "-nodes", 65, "-find", "load", "-reversal", -1, "-friction", friction)
+    got = run("shakedown", "-nodes", 65, "-find", "load", "-load-ratio", -1, "-friction", friction)
     assert got["load_limit_of_the_mesh"] is by_corner
     assert ("no limit of the bodies" in got.output) == by_corner
 
@@ -137,7 +137,7 @@ def test_limit_of_a_saved_block_on_a_rigid_plane(run):
     file, limits = run.folder / "block.json", []
     for nodes in (51, 101, 201):
         run("square_punch", "-obstacle", "rigid", "-nodes", nodes, "-save", file)
-        got = run("shakedown", "-reduced", file, "-friction", 0.8, "-find", "load", "-reversal", -1)
+        got = run("shakedown", "-reduced", file, "-friction", 0.8, "-find", "load", "-load-ratio", -1)
         assert got["load_limit_of_the_mesh"] is False
         limits.append(got["load_limit"])
     near_relative(limits[1], limits[2], 2e-3)
@@ -158,7 +158,7 @@ def test_other_laws_of_friction_have_a_largest_load(run):
 
     near(limit(f"-nodes 33 -find load {law} -save '{file}'"), 0.44296957130609, 1e-8)
     near(limit(of_file), 0.44296957130609, 1e-8)
-    near(limit(of_file + "-reversal -1 -strength-backward '1 .5' " + law), 0.35052341700053, 1e-8)
+    near(limit(of_file + "-load-ratio -1 -strength-backward '1 .5' " + law), 0.35052341700053, 1e-8)
     # Coulomb's takes its place only where it is said.
     coulomb = "-find load -friction 0.5 -nodes 33"
     near(limit(of_file + "-find load -friction 0.5"), limit(coulomb), 1e-10)
@@ -225,7 +225,7 @@ def test_reads_what_it_saves(run):
     for key in ("friction_limit", "load_limit"):
         assert punch[key] == saved[key]
     # A contact that stays closed everywhere is its own closed part.
-    closed = run.line(f"shakedown -reduced '{file}' -closed -lambda-max 0.2 -reversal -0.5")
+    closed = run.line(f"shakedown -reduced '{file}' -closed -lambda-max 0.2 -load-ratio -0.5")
     assert closed["closed_nodes"] == 33
     # The part is a problem of its own, whose sums are rounded elsewhere.
     near(closed["load_limit"], saved["load_limit"], 1e-13)
@@ -238,7 +238,7 @@ def test_limit_of_a_saved_lap_joint(run):
     for spacing in (0.04, 0.02):
         joint = run("lap_joint", "-load", 0.01, "-increments", 5, "-spacing", spacing, "-save", file)
         got = run.line(f"shakedown -reduced '{file}' -held 'bolt 1, w = 1' -cycled T -closed -find load -friction 0.2 "
-                       "-lambda-max 0.01 -reversal 0 -cycles 30")
+                       "-lambda-max 0.01 -load-ratio 0 -cycles 30")
         assert got["closed_nodes"] < joint["contact_nodes"]
         assert got["smallest_open_gap"] >= 0
         assert [march["outcome"] for march in got["whole_contact"]] == ["shaken down", "cyclic slip"]
@@ -251,7 +251,7 @@ def test_limit_of_a_saved_lap_joint(run):
     assert fine < 0.75 * coarse
 
 
-@pytest.mark.parametrize("options", ["-friction 0", "-lambda-max -1", "-reversal 2", "-find all", "-corner 0.7", "-held X -nodes 9",
+@pytest.mark.parametrize("options", ["-friction 0", "-lambda-max -1", "-load-ratio 2", "-find all", "-left-out 0.7", "-held X -nodes 9",
                                      "-reduced missing.json"])
 def test_refuses_bad_options(run, options):
     run.refuses("shakedown", options.split(), [])

@@ -109,3 +109,32 @@ def test_without_python_the_run_is_not_lost(run):
     failed = program(run, "--json", "kept.json", "--plot", "y.png", path=empty, code=1)
     refused(failed, "'kept.json'")
     assert (run.folder / "kept.json").exists() and not (run.folder / "y.png.json").exists()
+
+
+def test_without_python_nothing_is_compared(run):
+    """The run ends as it should, says so, and its values are there; with Python they stand beside their references."""
+    empty, kept = run.folder / "empty", run.folder / "kept.json"
+    empty.mkdir()
+    said = "nothing is compared with references: that needs Python 3"
+    done = subprocess.run([run.programs / "hertz", "--json", kept], cwd=run.folder, stdout=subprocess.PIPE, text=True, check=True,
+                          env={**os.environ, "PATH": str(empty)})
+    assert said in done.stdout
+    alone = json.loads(kept.read_text(encoding="utf-8"))
+    assert alone["references"] == [] and alone["half_width"] > 0
+    with_python = run("hertz")
+    assert said not in with_python.output
+    assert [row["computed"] for row in with_python["references"] if row["quantity"] == "half-width / b Hertz"] == [alone["half_width"]]
+
+
+def test_long_increments_are_in_a_file_beside_the_run(run):
+    """The page that is drawn of it later has all of them; without that file the sentence names it."""
+    kept, page, later = (run.folder / name for name in ("kept.json", "now.html", "later.html"))
+    subprocess.run([run.programs / "hertz", "-nodes", "201", "-increments", "400", "--json", kept, "--html", page], cwd=ROOT, check=True,
+                   stdout=subprocess.DEVNULL)
+    frames = run.folder / "kept.json.frames"
+    assert json.loads(kept.read_text(encoding="utf-8"))["shown"]["marches"] == frames.name and frames.stat().st_size > 1 << 20
+    show(kept, "--html", later)
+    data = [file.read_text(encoding="utf-8").split('id="run">')[1].split("</script>")[0] for file in (page, later)]
+    assert data[0] == data[1] and len(json.loads(data[0])["films"][0]["frames"]) > 100
+    frames.unlink()
+    refused(show(kept, "--html", later, code=1), "kept.json.frames", "cannot be read")

@@ -12,7 +12,7 @@ CYCLE = "--history 'P=0; P=1; Q=.2; Q=-.2; Q=.2' --cycle-start 2 --cycles 1 "
 
 def test_options_of_the_pad_are_not_for_a_reduced_problem(run):
     run.line(HERTZ + CYCLE)
-    for of_pad in ("--profile flat", "--flat 0.6", "--poisson 0.2", "--nodes 101", "--order 1", "--shear 0.2"):
+    for of_pad in ("--profile flat", "--flat 0.6", "--poisson 0.2", "--nodes 101", "--order 1", "--amplitude 0.2"):
         assert "of the pad" in run.line(HERTZ + CYCLE + of_pad, code=1).output
 
 
@@ -31,7 +31,7 @@ def test_flat_pads_of_any_width_wear_within_their_line(run, flat, stick, extent,
     assert got["warnings"] == []
 
 
-@pytest.mark.parametrize("law", ["--threshold 0.4", "--wear 0"])
+@pytest.mark.parametrize("law", ["--least-pressure 0.4", "--wear 0"])
 def test_there_is_no_worn_out_state_of_a_threshold_or_without_wear(run, law):
     got = run.line("wear --cycles 10 --nodes 49 " + law)
     assert "final_depth" not in got.results and "worn_out" not in got.results
@@ -97,7 +97,7 @@ def test_a_cycle_of_the_worn_out_contact_loses_nothing(run):
 
 def test_the_table_of_an_interrupted_run_has_its_last_state(run):
     """Ctrl-C: a cycle that is not whole is none, and the table goes up to the last one."""
-    got = run("wear", "--cycles", "1e9", "--tolerance", 0, "--wear", "1e-6", "--nodes", 49, code=2,
+    got = run("wear", "--cycles", "1e9", "--depth-error", 0, "--wear", "1e-6", "--nodes", 49, code=2,
               launcher="timeout --foreground --preserve-status -s INT 2".split())
     assert got["status"] == "stopped"
     assert got["event_loads"]["P"] == 1  # within a cycle or between two

@@ -16,7 +16,7 @@ import time
 
 # Minutes, if nobody interrupts them. How many iterations a limit takes nobody knows: it shows no share.
 LONG = {"lap_joint": "-all-cycles -cycles 100000 -spacing 0.05",
-        "axisymmetric_receding": "-cycles 10000 -amplitude 0.6 -spacing 0.05",
+        "axisymmetric_receding": "-twist-cycles 10000 -amplitude 0.6 -spacing 0.05",
         "shakedown": "-nodes 401 -map"}
 
 

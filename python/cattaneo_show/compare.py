@@ -1,0 +1,86 @@
+"""Compares values of a run with the references of its study (miniapps/data/references.json, whose head says how they are written).
+
+    python3 compare.py FILE
+
+FILE has the study, its values by name (results and options), those to be compared (found: key, computed, error, row) and closed
+forms (name, value, spread, mesh, computed). It is overwritten with rows and notes. A program asks so at its end: nothing but Python
+itself is needed."""
+
+import json
+import math
+import pathlib
+import sys
+
+REFERENCES = pathlib.Path(__file__).resolve().parents[2] / "miniapps" / "data" / "references.json"
+
+
+def is_number(x):
+    return isinstance(x, (int, float)) and not isinstance(x, bool)
+
+
+def holds(found, condition):
+    """Is what was found what the condition says?"""
+    if isinstance(condition, list):
+        return any(holds(found, one) for one in condition)
+    if isinstance(condition, str) and condition[:1] in "<>":
+        sign, bound = condition.split()
+        return is_number(found) and {"<=": found <= float(bound), ">=": found >= float(bound), "<": found < float(bound), ">": found > float(bound)}[sign]
+    if condition == "*":
+        return found is not None and found != ""
+    if is_number(found) and is_number(condition):
+        return abs(found - condition) < 1e-9  # a level that was reached in steps is so but for round-off
+    return found == condition
+
+
+def mesh_share(term, meaning):
+    """A number, "name", "number * name" or "number / name", or a sum of such in a list."""
+    if isinstance(term, list):
+        return sum(mesh_share(one, meaning) for one in term)
+    if is_number(term):
+        return term
+    factor, sign, name = term.split() if term[0].isdigit() else (1, "*", term)
+    found = meaning(name)
+    if not is_number(found):
+        raise SystemExit(f"references.json: the mesh share '{term}' is not the name of a number of this run")
+    return float(factor) * found if sign == "*" else float(factor) / found
+
+
+def row(name, value, spread, mesh, thesis, computed):
+    """A line of the table. Whatever is outside of the reference's own ± is marked, whether or not the mesh explains it; the limit
+    of a closed form, which has none, is the ± of the mesh. A value that only the thesis has is never outside."""
+    def apart(least):
+        return value is not None and not abs((math.nan if computed is None else computed) - value) <= least
+
+    own = math.nan if spread is None else spread
+    outside = apart(mesh if own == 0 else own)
+    verdict = "" if not apart(own) else "within the mesh's ±" if not outside else "outside" if apart(own + mesh) else "outside, within the mesh's ±"
+    return {"name": name, "value": value, "spread": spread, "mesh": mesh, "thesis": thesis, "computed": computed, "verdict": verdict,
+            "tolerance": None if spread is None else spread + mesh, "outside": outside}
+
+
+def compare(run):
+    """Rows and notes of a run."""
+    entries = [entry for entry in json.loads(REFERENCES.read_text(encoding="utf-8"))["references"] if entry["study"] == run["study"]]
+    rows = {one["name"]: row(one["name"], one["value"], one["spread"], one["mesh"], None, one["computed"]) for one in run["closed"]}
+
+    def meaning(name, of):
+        return of.get(name) if name in of else run["values"].get(name)
+
+    def fits(entry, of):
+        return all(holds(meaning(name, of), condition) for name, condition in entry.get("when", {}).items())
+
+    for found in run["found"]:
+        of = found["row"] or {}
+        for entry in entries:
+            name = entry.get("name")
+            if "key" not in entry or not holds(found["key"], entry["key"]) or name in rows or not fits(entry, of):
+                continue  # what is found twice is compared once
+            mesh = mesh_share(entry.get("mesh", 0.0), lambda word: meaning(word, of)) + (found["error"] or 0.0)
+            rows[name] = row(name, entry.get("value"), entry.get("spread"), mesh, entry.get("thesis"), found["computed"])
+    return {"rows": list(rows.values()), "notes": [entry["note"] for entry in entries if "note" in entry and fits(entry, {})] if rows else []}
+
+
+if __name__ == "__main__":
+    file = pathlib.Path(sys.argv[1])
+    answer = compare(json.loads(file.read_text(encoding="utf-8")))
+    file.write_text(json.dumps(answer), encoding="utf-8")
