@@ -24,6 +24,7 @@
 #include "contact/own_bodies.hpp"
 #include "contact/own_warnings.hpp"
 #include "contact/reactions.hpp"
+#include "contact/sketch.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -239,6 +240,7 @@ void contact(Study &study)
       fields.emplace(
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
    }
+   Sketch sketch(study, own.scene);
    // Pressures and openings at the largest pressure of all, and the largest pressure of each
    // node.
    Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), away = pressed,
@@ -249,6 +251,7 @@ void contact(Study &study)
                  [&](const ContactState &reached, bool frame)
                  {
                     snapshots.note(reached);
+                    sketch.note(reached);
                     for (auto &side : beyond_corners) { side.note(reached); }
                     joint_report.note(reached, history.cycle);
                     if (touches) { small.note(reached); }
@@ -265,6 +268,7 @@ void contact(Study &study)
                     study.counters += spent;
                     ++frames;
                  });
+   sketch.report();
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }

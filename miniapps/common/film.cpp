@@ -75,10 +75,16 @@ Film::Film(const std::string &name, const ReducedProblem &problem, const Units &
    {
       interfaces.push_back({{"name", ""}, {"first", 0}, {"end", problem.nodes()}});
    }
+   ordered_json places = ordered_json::array(); // x and y of the nodes, where they are known
+   for (Index c = 0; c < problem.position.cols(); ++c)
+   {
+      places.push_back(list(problem.position.col(c)));
+   }
    head_ = {{"name", name},
             {"loads", loads},
             {"position", list(problem.arc_length)},
             {"friction", list(problem.friction)},
+            {"places", places},
             {"breaks", breaks},
             {"interfaces", interfaces}};
 }

@@ -274,6 +274,12 @@ const Options::Option *Options::named(const std::string &name) const
    return found == options_.end() ? nullptr : &*found;
 }
 
+std::string Options::text(const std::string &name) const
+{
+   const Option *option = named(name);
+   return option ? option->text() : "";
+}
+
 void Options::refuse_old(const std::string &what, const std::string &name) const
 {
    const auto now = renamed_.find(name);
@@ -577,7 +583,7 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
    }
    // What was changed stands for itself, a key may be swept.
    for (const std::string &name : changed_) { values[name] = named(name)->text(); }
-   for (const char *name : {"set", "sweep-results"}) { values.erase(name); }
+   for (const char *name : {"set", "sweep-results", "amplitudes"}) { values.erase(name); }
    values["sweep"] = "none"; // a case file may have one
    for (const auto &[key, value] : changes)
    {

@@ -106,6 +106,8 @@ public:
    std::vector<std::string>
    command(const std::vector<std::pair<std::string, std::string>> &changes) const;
 
+   /// The value of an option; nothing of one that there is not.
+   std::string text(const std::string &name) const;
    /// Does the command line or the case file say it?
    bool says(const std::string &name) const { return said_.count(name) > 0; }
    /// What it is called in an error: "key 'cycles'" of a case, otherwise "option --cycles".

@@ -234,6 +234,14 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
    study.option(&cycle_start_, "cycle-start",
                 "Point of the history (from 0) where its cycle starts; -1: there is none.",
                 at_least(-1));
+   study.option(&amplitude_, "amplitude",
+                "Factor of how far the loads of the cycle go from those of the point "
+                "--cycle-start: 0.5 halves a cycle between ±Q.",
+                positive);
+   study.option(&amplitudes_, "amplitudes",
+                "One run for each of these values of --amplitude, as '0.2 0.5 1' or '0.2 … 1' "
+                "(nine values); the same as --sweep amplitude=…");
+   study.options().leave_out_of_cases("amplitudes");
    study.option(&cycles_, "cycles",
                 "Largest number of cycles: the march ends when they are steady.", at_least(1));
    study.option(&settings.increments, "increments",
@@ -262,6 +270,10 @@ void OwnHistory::check_options()
                      options.called("history"),
                      " has no point, must have one at least, as 'P=1' (without it all loads go "
                      "from 0 to 1)");
+   cattaneo::require(
+      cycle_start_ >= 0 || !options.says("amplitude"), options.called("amplitude"),
+      " is of the cycle, but the history has none: ", options.called("cycle-start"),
+      " must give the point at which the cycle starts");
    stepping_.set(settings);
    if (frames_ != "all") { wanted_ = numbers("--frames", frames_); }
    std::sort(wanted_.begin(), wanted_.end());
@@ -278,6 +290,14 @@ void OwnHistory::begin(const ReducedProblem &problem)
       its = history_.multipliers.row(problem.pattern(with));
    }
    history_.cycle_start = cycle_start_;
+   const Eigen::Index start = cycle_start_;
+   for (Eigen::Index k = start + 1;
+        start >= 0 && amplitude_ != 1 && k < history_.multipliers.cols(); ++k)
+   {
+      const VectorXd at_start = history_.multipliers.col(start);
+      history_.multipliers.col(k) =
+         at_start + amplitude_ * (history_.multipliers.col(k) - at_start);
+   }
    history_.cycles = cycles_;
    history_.validate(problem);
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)

@@ -60,7 +60,8 @@ public:
 private:
    Study &study_;
    SteppingOptions stepping_;
-   std::string text_, frames_, save_state_, load_state_;
+   std::string text_, frames_, save_state_, load_state_, amplitudes_;
+   double amplitude_ = 1; ///< factor of the cycle
    int cycle_start_ = -1, cycles_ = 1;
    std::vector<double> wanted_; ///< times of frames, in their order
    cattaneo::LoadHistory history_;

@@ -12,6 +12,7 @@
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -76,6 +77,22 @@ void Study::parse()
              "Largest number of iterations for a right-hand side.");
    }
    options_.parse();
+   if (const std::string amplitudes = options_.text("amplitudes"); !amplitudes.empty())
+   {
+      // "0.2 … 1" are nine values from one to the other.
+      std::string values = amplitudes;
+      for (const char *const dots : {"…", "..."})
+      {
+         const std::size_t at = values.find(dots);
+         if (at == std::string::npos) { continue; }
+         const std::vector<std::string> ends = {
+            listed(split(values.substr(0, at), " "), " "),
+            listed(split(values.substr(at + std::strlen(dots)), " "), " ")};
+         values = ends[0] + ":" + ends[1] + ":9";
+         break;
+      }
+      sweep_ += (sweep_.empty() ? "amplitude=" : "; amplitude=") + values;
+   }
    const bool sweeps = sweep_ != "none" && !sweep_.empty();
    // A point of a sweep has none itself; its case file may still name what the sweep shows.
    options_.only_if(options_.says("sweep"), {"sweep-results"}, "goes with --sweep");
@@ -428,11 +445,13 @@ ordered_json Study::shown(const std::vector<Sheet> &sheets) const
                         : ""},
            {"units", {{"length", units.of(0, 1)}, {"pressure", units.of(1, -2)}}},
            {"options", options_.values()},
+           {"lead", lead},
            {"values", values_},
            {"tables", tables},
            {"panels", panels},
            {"marches", marches},
-           {"more_marches", more_films_}};
+           {"more_marches", more_films_},
+           {"sketch", sketch}};
 }
 
 void Study::show_results(const ordered_json &run) const

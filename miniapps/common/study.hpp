@@ -81,6 +81,7 @@ public:
    /// True if its panels go to a file: JSON, CSV, a picture or the page.
    bool keeps_panels() const { return !json_.empty() || !csv_.empty() || draws(); }
    bool has_picture() const { return !plot_.empty(); }
+   bool has_page() const { return !html_.empty(); }
    const std::string &csv() const { return csv_; } ///< prefix of its CSV files, if any
 
    /// To be called when the problem has been reduced: prints its size, writes it to the file of
@@ -144,6 +145,9 @@ public:
    void compare(const std::string &name, double exact, Allowed allowed, double computed);
 
    nlohmann::ordered_json results;
+   /// What the page begins with: "sentence", and "rows" of label, value and meaning.
+   nlohmann::ordered_json lead;
+   nlohmann::ordered_json sketch; ///< the bodies of the march, see Sketch
    cattaneo::Counters counters;
    Units units;  ///< of what is printed
    int code = 0; ///< that the study ends with, unless it ends early

@@ -1,5 +1,7 @@
 #include "fretting/fretting_figures.hpp"
 
+#include "fretting/hertz_surface.hpp"
+
 #include <algorithm>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
@@ -61,6 +63,30 @@ void mark(Panel &panel, const std::string &name, double x, double y)
    panel.point(name, x, y, "star");
 }
 
+/// What acts on the specimen at peak load, before all that is scaled.
+void draw_tractions(Study &study, const Pad &pad)
+{
+   const HertzSurface at(pad);
+   if (!at.valid()) { return; }
+   const double a = at.half_width;
+   Panel &panel = study.lines("tractions", "On the specimen at peak load", "x, mm", "MPa");
+   std::vector<double> x, p, q, stress;
+   for (int i = -1000; i <= 1000; i++)
+   {
+      x.push_back(2 * a * i / 1000);
+      p.push_back(at.pressure(x.back()));
+      q.push_back(at.shear(x.back()));
+      stress.push_back(at.stress(x.back()));
+   }
+   panel.add("pressure p", x, p);
+   panel.add("shear q", x, q);
+   panel.add("stress σ_xx", x, stress);
+   const auto slip = [&](double from, double to, const char *word)
+   { panel.say("shade", text("%.9g,%.9g,%s", from, to, word)); };
+   slip(-a, at.shift - at.stick, "slip");
+   slip(at.shift + at.stick, a, "slip");
+}
+
 /// Pressure of a flat pad with round edges, and what its edge makes of it (thesis appendix A).
 void draw_profile(Study &study, const Pad &pad)
 {
@@ -95,6 +121,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    const double constraint = out_of_plane_constraint(pad.material.poisson, pad.plane_stress);
    const FrettingReport &r = judged.report;
 
+   if (pad.kind == "hertz" && pad.shear != 0) { draw_tractions(study, pad); }
    Panel &field = study.panel(Panel::Kind::field, "field", "von Mises stress σ_vM/(K_N √d)",
                               "t/d", "depth y/d");
    for (const double friction : with_design({0.8, 0.6}, f))

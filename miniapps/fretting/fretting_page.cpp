@@ -1,5 +1,7 @@
 #include "fretting/fretting_page.hpp"
 
+#include "fretting/hertz_surface.hpp"
+
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
 
@@ -61,10 +63,11 @@ std::string number(double value, const std::string &unit = "")
 class Page
 {
 public:
-   explicit Page(Study &study) : study_(study) {}
+   explicit Page(Study &study) : study_(study) { study.lead["rows"] = Json::array(); }
 
    void line(const std::string &what, const std::string &value, const std::string &meaning = "")
    {
+      study_.lead["rows"].push_back({what, value, meaning});
       study_.say("   " + padded(what, 23) + padded(value, 24) + meaning);
    }
    void value(const std::string &key, const std::string &what, double x,
@@ -99,6 +102,8 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
       wrapped(verdict_text(r), 3) +
       wrapped("Trust in this result: " + to_string(r.trust) + " (see the last section).", 3));
    Page page(study);
+   study.lead["sentence"] =
+      verdict_text(r) + " Trust in this result: " + to_string(r.trust) + ".";
    study.say("1. What the contact edge feels");
    page.value("half_width", "half width a", a, "mm", "of the contact");
    page.value("k_n", "K_N", contact.k_n, "MPa/√mm",
@@ -114,7 +119,18 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
    page.value("slip_zone", "slip zone d", r.slip_zone, "mm",
               a > 0 ? number(100 * r.slip_zone / a, "% of a") : "");
    page.value("edge_stress", "edge stress", r.edge_stress, "MPa",
-              "along the surface at the contact edge, at peak load");
+              "along the surface at the contact edge, at peak load, by the edge field");
+   if (pad.kind == "hertz")
+   {
+      // The edge field leaves out the bulk stress beside K_T, and the width of the contact.
+      const HertzSurface surface(pad);
+      const double x = judged.edge == "trailing" ? -contact.half_width : contact.half_width;
+      if (surface.valid())
+      {
+         page.value("edge_stress_contact", "of the whole contact", surface.stress(x), "MPa",
+                    "the same by Hertz and Mindlin, with bulk stress by Nowell and Hills");
+      }
+   }
    page.value("edge_stress_range", "its range", r.edge_stress_range, "MPa",
               "fatigue limit " + number(m.fatigue_limit.low, "MPa"));
    page.value("yield_ratio_first", "load / first yield", r.yield_ratio_first, "",

@@ -7,9 +7,10 @@ import shutil
 import subprocess
 import sys
 
-from . import Refused, page, panel_names, plot, read
+from . import Refused, page, panel, panel_names, plot, read
 from .panels import pieces, unquoted
 from .sweep import sweep
+from .tables import csv_of, write
 
 WITHOUT_MATPLOTLIB = 3
 
@@ -51,6 +52,8 @@ def main(arguments=None):
     parser.add_argument("run", metavar="RUN.json", nargs="?")
     parser.add_argument("--plot", metavar="FILE", help="picture: png, pdf or svg (needs matplotlib)")
     parser.add_argument("--panels", metavar="NAMES", help="panels of the picture, in this order, between blanks, those with blanks in quotes (default: all)")
+    parser.add_argument("--each", action="store_true", help="a picture for each panel: FILE_panel.pdf of --plot FILE.pdf")
+    parser.add_argument("--csv", metavar="PREFIX", help="the data of each panel as a CSV file: PREFIX_panel.csv")
     parser.add_argument("--html", metavar="FILE", help="page of the run (its figures need matplotlib; its slider, that the run had --html)")
     parser.add_argument("--sweep", metavar="PLAN", help=argparse.SUPPRESS)  # of a program's option --sweep
     options = parser.parse_args(arguments)
@@ -61,8 +64,14 @@ def main(arguments=None):
             raise Refused("the file of a run must be named (./run NAME --json RUN.json writes it)")
         draws = bool(options.plot or options.html) and find_matplotlib(arguments)
         run = read(options.run)
-        if options.panels is not None and not options.plot:
-            raise Refused("option --panels does nothing: it goes with --plot")
+        if options.panels is not None and not options.plot and not options.csv:
+            raise Refused("option --panels does nothing: it goes with --plot and --csv")
+        if options.each and not options.plot:
+            raise Refused("option --each does nothing: it goes with --plot")
+        names = None if options.panels is None else [unquoted(name) for name in pieces("option --panels", options.panels, " \t,")]
+        if options.csv:
+            for name in panel_names(run) if names is None else names:
+                write(f"{options.csv}_{name}.csv", csv_of(*panel(run, name)))
         if options.html:
             page(run, options.html, figure=draws)
             if not run["shown"]["marches"] and "CATTANEO_PROGRAM" not in os.environ:
@@ -73,9 +82,13 @@ def main(arguments=None):
             if "CATTANEO_PROGRAM" not in os.environ:  # a program says it itself
                 print("error: --plot needs matplotlib (Debian: python3-matplotlib)", file=sys.stderr)
             return WITHOUT_MATPLOTLIB
-        if options.plot:
-            plot(run, options.plot, None if options.panels is None else [unquoted(name) for name in pieces("option --panels", options.panels, " \t,")])
-        if not options.plot and not options.html:
+        if options.plot and options.each:
+            base, end = os.path.splitext(options.plot)
+            for name in panel_names(run) if names is None else names:
+                plot(run, f"{base}_{name}{end}", [name])
+        elif options.plot:
+            plot(run, options.plot, names)
+        if not options.plot and not options.html and not options.csv:
             print("\n".join(panel_names(run)))
     except (Refused, OSError, ValueError) as error:
         print(f"error: {error}", file=sys.stderr)

@@ -15,6 +15,7 @@ in hatching as well, so that a black-and-white print can be read.
 """
 
 import math
+import re
 from collections import OrderedDict, defaultdict
 
 import matplotlib
@@ -22,6 +23,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Annulus, Patch, Polygon
+from matplotlib.ticker import MaxNLocator
 
 from .panels import Refused, panel, panel_names, series_of, value
 
@@ -92,8 +94,9 @@ def draw_lines(axes, comments, rows):
         axes.set_ylim(min(inner) - gap, max(inner) + gap)
     axes.grid(True, color="#DDDDDD", linewidth=0.6)
     axes.set_axisbelow(True)
-    if len(labelled) > 1 or labelled - {""}:
-        axes.legend(fontsize=8 if len(labelled) < 9 else 6.5, framealpha=0.9, loc="best")
+    said = labelled - {""}
+    if len(labelled) > 1 or said and not said & set(comments["y"][0].split()):  # the axis names a single curve
+        legend_below(axes)
 
 
 def draw_zones(axes, comments, rows):
@@ -134,6 +137,23 @@ def draw_zones(axes, comments, rows):
         handles.append(Line2D([], [], marker="D", color="black", markerfacecolor="white", linestyle="",
                                   markersize=5, label="thesis"))
     legend_above(axes, handles)
+
+
+def legend_below(axes):
+    """Where it covers no curve, in as many columns as fit."""
+    handles, labels = axes.get_legend_handles_labels()
+    labels = [symbols(label) for label in labels]
+    columns = max(1, min(len(labels), 62 // (max(map(len, labels)) + 7)))
+    axes.legend(handles, labels, fontsize=8, ncol=columns, loc="upper center", bbox_to_anchor=(0.5, -0.17), frameon=False,
+                handlelength=2.6, columnspacing=1.4)
+
+
+SYMBOL = re.compile(r"(?<!\w)(Δ?)([A-Za-zσξτ])_(\w+(?:,max|,min)?)")
+
+
+def symbols(text):
+    """K_N as it is set in a paper; names of more letters, as those of parts, stay."""
+    return SYMBOL.sub(lambda m: f"{m[1]}${m[2]}_{{\\mathrm{{{m[3]}}}}}$", text)
 
 
 def legend_above(axes, handles):
@@ -179,11 +199,13 @@ def draw_field(axes, comments, rows):
     grid = [[float("nan")] * len(x) for _ in y]
     for row in rows:
         grid[y.index(value(row["y"]))][x.index(value(row["x"]))] = value(row["value"])
-    top = sorted(value(row["value"]) for row in rows)[int(0.99 * len(rows))]
-    levels = [top * k / 16 for k in range(1, 17)]
-    shades = axes.contourf(x, y, grid, levels, cmap="viridis", extend="both")
-    axes.clabel(axes.contour(x, y, grid, levels[1::3], colors="white", linewidths=0.7), fmt="%.2g", fontsize=7)
-    axes.figure.colorbar(shades, ax=axes)
+    # Round levels up to the largest value, which is what a reader looks for.
+    values = [value(row["value"]) for row in rows]
+    levels = [float(f"{level:.10g}") for level in MaxNLocator(14).tick_values(min(values), max(values))]
+    shades = axes.contourf(x, y, grid, levels, cmap="viridis")
+    labelled = axes.contour(x, y, grid, levels[2:-1:3], colors="white", linewidths=0.7)
+    axes.clabel(labelled, fmt="%g", fontsize=8)
+    axes.figure.colorbar(shades, ax=axes, ticks=levels[::2])
     axes.invert_yaxis()
 
 
@@ -195,7 +217,8 @@ def draw_scene(axes, comments, rows):
         x, y, dx, dy = zip(*parts)
         kind = item.split()[0]
         if kind in ("body", "gap"):
-            colour = "black" if kind == "gap" else {"body 1": COLOURS[0], "body 2": COLOURS[1]}.get(item, "#555555")
+            bodies = [other for other in items if other.split()[0] == "body"]
+            colour = "black" if kind == "gap" else COLOURS[bodies.index(item) % len(COLOURS)]
             axes.add_collection(LineCollection([[(a, b), (a + c, b + d)] for a, b, c, d in parts], colors=colour,
                                                linewidths=1.4 if kind == "body" else 0.8, label=item))
         elif kind == "contact":
@@ -214,9 +237,9 @@ def draw_scene(axes, comments, rows):
 
 def finish(axes, comments):
     one = {key: texts[0] for key, texts in comments.items() if texts}
-    axes.set_title(one.get("title", ""), pad={"zones": 23, "plan": 34}.get(one["kind"], 6))
-    axes.set_xlabel(one.get("x", ""))
-    axes.set_ylabel(one.get("y", ""))
+    axes.set_title(symbols(one.get("title", "")), pad={"zones": 23, "plan": 34}.get(one["kind"], 6))
+    axes.set_xlabel(symbols(one.get("x", "")))
+    axes.set_ylabel(symbols(one.get("y", "")))
     scale = one.get("scale", "")
     if scale in ("loglog", "semilogx"):
         axes.set_xscale("log")
@@ -234,16 +257,42 @@ def finish(axes, comments):
             lo, hi, word = text.split(",", 2)
             span(float(lo), float(hi), color="0.85", zorder=0)
             if word and key == "shade":
-                axes.text(float(lo), 0.03, word, transform=place, fontsize=8, rotation=90, ha="left", clip_on=True)
+                axes.text((float(lo) + float(hi)) / 2, 0.98, word, transform=place, fontsize=8, rotation=90, ha="center", va="top",
+                          clip_on=True)
     if one.get("reversed") == "x":
         axes.invert_xaxis()
+
+
+def less_elastic(said, rows):
+    """Loops without their elastic part, which lies beside them: displacement less force times the least slope of a loop, as it
+    has after a reversal. What is left is slip. None where nothing is left."""
+    loops = {}
+    for row in rows:
+        loops.setdefault((row["series"], row["style"]), []).append((value(row["x"]), value(row["y"])))
+    made = []
+    for (series, style), points in loops.items():
+        most = max(abs(force) for _, force in points)
+        slopes = [(d1 - d0) / (f1 - f0) for (d0, f0), (d1, f1) in zip(points, points[1:]) if abs(f1 - f0) > 1e-6 * most]
+        slopes = [slope for slope in slopes if slope > 0]
+        if not slopes:
+            continue
+        left = [d - min(slopes) * force for d, force in points]
+        whole = [d for d, _ in points]
+        if max(left) - min(left) > 1e-6 * (max(whole) - min(whole)):
+            made += [{"series": series, "style": style, "x": d, "y": force} for d, (_, force) in zip(left, points)]
+    if not made:
+        return None
+    x = said["x"][0] if said["x"] else ""
+    name, bracket, unit = x.partition(" [")
+    return defaultdict(list, said, title=["The same less the elastic part"], x=[f"{name} less elastic part{bracket}{unit}"]), made
 
 
 DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": draw_plan, "field": draw_field,
         "scene": draw_scene}
 
 
-STYLE = {"font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans"}
+# Text of 9 points, and letters that stay letters in a PDF.
+STYLE = {"pdf.fonttype": 42, "font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans"}
 
 
 def figure(run, names=None):
@@ -253,6 +302,9 @@ def figure(run, names=None):
         said, rows = panel(run, name)
         if said["kind"] != ["field"]:
             panels.append((said, rows))
+            less = less_elastic(said, rows) if name.startswith("loops") and said["kind"] == ["lines"] else None
+            if less:
+                panels.append(less)
             continue
         for series in OrderedDict.fromkeys(row["series"] for row in rows):
             own = defaultdict(list, said, title=[f"{said['title'][0]}, {series}"])

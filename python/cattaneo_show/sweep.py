@@ -5,6 +5,7 @@ with one thread. Ctrl-C keeps the points that were computed."""
 
 import ctypes
 import json
+import math
 import os
 import pathlib
 import signal
@@ -193,6 +194,19 @@ def scale(parts):
     return {"scale": "loglog" if x and y else "semilogx" if x else "semilogy"} if x or y else {}
 
 
+def slopes(parts, said):
+    """On two logarithmic axes a curve that is nearly a straight line has its slope beside its name."""
+    for part in parts.values() if said.get("scale") == "loglog" else ():
+        x, y = ([math.log(value) for value in part[axis]] for axis in "xy")
+        if len(x) < 3:
+            continue
+        mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+        slope = sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+        off = max(abs(b - mean_y - slope * (a - mean_x)) for a, b in zip(x, y))
+        if off < 0.05 * (max(y) - min(y)):
+            part["series"] = ", ".join([*filter(None, [part["series"]]), f"slope {slope:.3g}"])
+
+
 def curves(keys, points, names):
     """A panel for each result over one key; of the other keys a curve each."""
     over, panels = drawn_over(keys), []
@@ -202,17 +216,26 @@ def curves(keys, points, names):
     label = called(over["name"])
     for name, path in names.items():
         parts = {}
+        slides = {}  # of each value at which a run ended early: its status
         for point in points:
             y = result(point.results, path)
+            if not point.ended_well and point.ran:
+                slides[point.values[k]] = point.status
             if not is_number(y) or not point.ended_well:
                 continue
             series = ", ".join(f"{called(key['name'])} = {text_of(value)}" for j, (key, value) in enumerate(zip(keys, point.values)) if j != k)
             part = parts.setdefault(series, {"series": series, "style": "marked", "x": [], "y": []})
             part["x"].append(float(f"{point.values[k]:.9g}"))
             part["y"].append(float(f"{y:.9g}"))
+        shaded = {}
+        if slides and len(parts) == 1:  # from where on the joint slides, or what else ended the runs
+            good = [x for part in parts.values() for x in part["x"] if x < min(slides)]
+            begin = (max(good) + min(slides)) / 2 if good else min(slides)
+            shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{slides[min(slides)].replace('_', ' ')}"}
+        slopes(parts, scale(parts.values()))
         if parts:
             panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": name, "x": label, "y": name,
-                           **scale(parts.values()), "parts": list(parts.values())})
+                           **scale(parts.values()), **shaded, "parts": list(parts.values())})
     return panels
 
 

@@ -70,6 +70,14 @@ def csv_of_lines(panel):
     return "\n".join(lines) + "\n"
 
 
+def csv_of(words, rows):
+    """The CSV file of any panel: its words as comments, then its rows."""
+    lines = [f"# {key}: {text}" for key, texts in words.items() for text in texts]
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    lines += [",".join(map(quoted, columns)), *(",".join(field(row.get(key)) for key in columns) for row in rows)]
+    return "\n".join(lines) + "\n"
+
+
 def write(file, text):
     """A file, whole or not at all. Refused if it cannot be."""
     part = f"{file}.part"

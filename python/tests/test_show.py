@@ -100,3 +100,37 @@ def test_axes_of_a_sweep_follow_their_values():
     assert drawn([1.0, 2.0], [1e-3, 1.0]) == "semilogy"
     assert drawn([1.0, 200.0], [1e-3, 1.0]) == "loglog"
     assert drawn([-1.0, 200.0], [0.0, 1.0]) == ""
+
+
+def test_loops_lie_beside_the_same_less_their_elastic_part(kept):
+    """A spring of stiffness 4 in series with a slider of force 1: without the spring a cycle is the slider's rectangle, as high as
+    twice its force and as wide as its slip."""
+    pytest.importorskip("matplotlib")
+    forces, slips = [-1, 1, 1, -1, -1], [0, 0, 3, 3, 0]
+    loop = {"name": "loops", "kind": "lines", "title": "Loops", "x": "displacement of Q [mm]", "y": "force Q [N]",
+            "parts": [{"series": "Q", "style": "line", "x": [f / 4 + s for f, s in zip(forces, slips)], "y": forces}]}  # fmt: skip
+    run = {**RUN, "shown": {**RUN["shown"], "panels": [loop]}}
+    whole, less = show.plot(run).axes
+    assert whole.get_xlabel() == "displacement of Q [mm]" and less.get_xlabel() == "displacement of Q less elastic part [mm]"
+    assert less.get_lines()[0].get_xdata() == pytest.approx(slips) and list(less.get_lines()[0].get_ydata()) == forces
+    # A straight line is no loop, and has nothing to be less.
+    run["shown"]["panels"] = [{**loop, "parts": [{"series": "Q", "style": "line", "x": [0, 1, 0], "y": [0, 2, 0]}]}]
+    assert len(show.plot(run).axes) == 1
+
+
+def test_symbols_are_set_as_in_a_paper():
+    pytest.importorskip("matplotlib")
+    from cattaneo_show.drawing import symbols
+
+    assert symbols("σ_vM/(K_N √d)") == r"$σ_{\mathrm{vM}}$/($K_{\mathrm{N}}$ √d)"
+    assert symbols("ΔK_th, K_I,max") == r"Δ$K_{\mathrm{th}}$, $K_{\mathrm{I,max}}$"
+    assert symbols("zones of under_head and bolt_1") == "zones of under_head and bolt_1"
+
+
+def test_a_straight_line_in_logarithmic_axes_has_its_slope():
+    from cattaneo_show.sweep import slopes
+
+    parts = {"": {"series": "", "x": [1, 10, 100], "y": [2, 2000, 2e6]}, "f": {"series": "f = 1", "x": [1, 10, 100], "y": [1, 50, 60]}}
+    slopes(parts, {"scale": "loglog"})
+    assert [part["series"] for part in parts.values()] == ["slope 3", "f = 1"]
+

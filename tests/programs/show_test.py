@@ -74,6 +74,13 @@ def test_panels_are_chosen_by_name(run):
     assert "no slider" in show(kept, "--html", run.folder / "page.html")
     refused(show(kept, "--plot", picture, "--panels", "pressur", code=1), "no panel 'pressur'", names[0])
     refused(show(kept, "--panels", names[0], code=1), "--panels", "goes with --plot")
+    # A picture and a table for each panel, for papers.
+    assert show(kept, "--plot", run.folder / "of.pdf", "--each", "--csv", run.folder / "of", "--panels", f"'{names[0]}' '{names[1]}'") == ""
+    for name in names[:2]:
+        assert (run.folder / f"of_{name}.pdf").read_bytes()[:5] == b"%PDF-"
+        table = (run.folder / f"of_{name}.csv").read_text(encoding="utf-8")
+        assert f"# title: {titles[name]}\n" in table and len(table.splitlines()) > 8
+    refused(show(kept, "--each", code=1), "--each", "goes with --plot")
 
 
 def test_what_is_no_run_is_refused(run):

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "common/scene.hpp"
+#include "common/study.hpp"
+
+#include <cattaneo/friction/contact_state.hpp>
+#include <optional>
+#include <vector>
+
+namespace miniapp
+{
+
+/** The bodies of a march, deformed, for the page (--html): their vertices and elements, and at
+    some increments the displacements of the vertices and von Mises' stress in the middle of
+   each element. Bodies of many elements are drawn by their boundary alone; nothing on several
+    ranks. */
+class Sketch
+{
+public:
+   /// The scene must outlive it.
+   Sketch(Study &study, Scene &scene);
+   /// To be called with every accepted increment, as the film of the march is.
+   void note(const cattaneo::ContactState &reached);
+   /// Recovers the fields at the increments that were kept, one solve a body each.
+   void report();
+
+private:
+   nlohmann::ordered_json frame(const cattaneo::ContactState &state, std::size_t row);
+   Study &study_;
+   Scene &scene_;
+   bool wanted_ = false, filled_ = false;
+   struct Kept
+   {
+      std::size_t row;
+      cattaneo::ContactState state;
+   };
+   std::vector<Kept> kept_;
+   std::optional<Kept> last_;
+   std::size_t rows_ = 0, stride_ = 1;
+};
+
+} // namespace miniapp
