@@ -75,7 +75,8 @@ Sketch::Sketch(Study &study, Scene &scene) : study_(study), scene_(scene)
 
 void Sketch::note(const ContactState &reached)
 {
-   if (!wanted_) { return; }
+   // The last state of a march may come again.
+   if (!wanted_ || (last_ && last_->state.time == reached.time)) { return; }
    last_ = Kept{rows_, reached};
    if (rows_++ % stride_ == 0) { kept_.push_back(*last_); }
    if (kept_.size() <= most_states) { return; }

@@ -119,7 +119,7 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
    page.value("slip_zone", "slip zone d", r.slip_zone, "mm",
               a > 0 ? number(100 * r.slip_zone / a, "% of a") : "");
    page.value("edge_stress", "edge stress", r.edge_stress, "MPa",
-              "along the surface at the contact edge, at peak load, by the edge field");
+              "along the surface, at peak load, by the edge field");
    if (pad.kind == "hertz")
    {
       // The edge field leaves out the bulk stress beside K_T, and the width of the contact.
@@ -127,7 +127,7 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
       const double x = judged.edge == "trailing" ? -contact.half_width : contact.half_width;
       if (surface.valid())
       {
-         page.value("edge_stress_contact", "of the whole contact", surface.stress(x), "MPa",
+         page.value("edge_stress_contact", "edge stress, contact", surface.stress(x), "MPa",
                     "the same by Hertz and Mindlin, with bulk stress by Nowell and Hills");
       }
    }
@@ -152,9 +152,9 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
               "above 1 unsafe; for when the slip zone yields");
 
    study.title("4. Frictional energy per cycle");
-   page.value("energy_max", "largest", r.energy_max, "N/mm",
+   page.value("energy_max", "energy, largest", r.energy_max, "N/mm",
               "per area (= mJ/mm²), a quarter into the slip zone");
-   page.value("energy_total", "total", r.energy_total, "N", "per mm of edge (= mJ/mm)");
+   page.value("energy_total", "energy, total", r.energy_total, "N", "per mm of edge (= mJ/mm)");
 
    study.title("5. How far to trust it");
    Json validity = Json::array();
