@@ -232,8 +232,8 @@ def curves(keys, points, names):
             good = [x for part in parts.values() for x in part["x"] if x < min(slides)]
             begin = (max(good) + min(slides)) / 2 if good else min(slides)
             shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{slides[min(slides)].replace('_', ' ')}"}
-        slopes(parts, scale(parts.values()))
         if parts:
+            slopes(parts, scale(parts.values()))
             panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": name, "x": label, "y": name,
                            **scale(parts.values()), **shaded, "parts": list(parts.values())})
     return panels
