@@ -167,7 +167,7 @@ void contact(Study &study)
               !joint.bodies.back().half_plane || !std::isnan(joint.bodies.back().depth),
            "option --paraview writes displacements, which on a half-plane are relative to a "
            "depth: ",
-           joint.bodies.back().source.called("half-plane.depth"), " must state it");
+           joint.bodies.back().source.called("half-plane.depth"), " must give it");
    if (!own.known_elements) { own.scene.bodies.clear(); } // of the others nothing is shown
    ReducedProblem &problem = own.scene.problem();
    require(!problem.patterns.empty(), "there is no load: key 'load' of a body must name one");

@@ -249,7 +249,7 @@ MISTAKES = [
     ({**GROUND, HALF: {"young": 1}}, [], ["key 'bodies.ground.half-plane' has no 'poisson'"]),
     ({**GROUND, HALF: {"depth": 1}}, [], ["half-plane' has no 'young'"]),
     ({**GROUND, HALF: {"young": 1, "poisson": 0.5}}, [], ["half-plane.poisson' is 0.5", "between -1 and 0.5"]),
-    ({**GROUND, HALF: {**FULL, "depth": 1}}, [], ["depth 1", "at least twice the length"]),
+    ({**GROUND, HALF: {**FULL, "depth": 1}}, [], ["is 1, must be given", "at least twice the length"]),
     ({**GROUND, HALF: {**FULL, "width": 2}}, [], ["unknown key 'width'", "young, poisson, depth"]),
     ({"bodies.pad.half-plane": FULL}, [], ["bodies.pad' has 2 of the keys mesh, matrix (or deck) and half-plane"]),
     ({FLOOR + "between": ["pad:3", "ground:1"], HALF: FULL}, [], ["between.1'", "the name of the half-plane alone"]),

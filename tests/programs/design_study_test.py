@@ -93,14 +93,14 @@ ROW = "--reduced problems/lap_joint.json --history 'T=0; T=0.02' "
     (ROW + "--choose 'T; P' --coat '0.1 0.5'", "cannot be used together"),
     ("--coat '0.1 0.5' --profile crown", "--choose and --coat take its place"),
     ("--coat '0.5 0.1'", "must be the least friction and the most"),
-    ("--coat '0.5 0.9'", "friction is from 0.3 to 0.3"),
+    ("--coat '0.5 0.9'", "must include the friction of the problem, 0.3 to 0.3"),
     ("--coat '0.1 0.5' --zones 1000", "no node lies"),
     ("--zones 3", "--zones does nothing in this run: it is of --coat"),
     ("--powers 3", "--powers does nothing in this run: it is of --profile crown"),
     ("--profile crown --powers '2 2.5'", "must be whole numbers"),
     ("--profile crown --powers '2 2'", "each once"),
     ("--profile rounded --curvature 1", "--most is the limit of 1/R"),
-    ("--lines 4", "--lines does nothing in this run: it is not of a free profile"),
+    ("--lines 4", "--lines does nothing in this run: it is not for a free profile"),
     ("--goal energy", "needs a cycle"),
     (ROW + "--choose T", "must be at least two loads"),
     (ROW + "--choose 'T; T'", "names 'T' twice"),
@@ -194,7 +194,7 @@ def test_sweeps_where_limits_hold(run):
     near(got["variables"][0], 0.15, 1e-6)
     assert got["best_of_lines"] <= 1e-6
     chosen = run.line("design --case problems/bolt_row.case.json --lines 8", code=1)
-    assert "--lines does nothing in this run: it is not of --choose" in chosen.output
+    assert "--lines does nothing in this run: it is not for --choose" in chosen.output
 
 
 def test_first_start_without_equilibrium(run):
