@@ -16,7 +16,7 @@ void bind_areas(nb::module_ &m)
                            "A part of the contact surface: the nodes in one state.")
       .def_ro("area", &SurfacePart::area, "sum of their weights")
       .def_ro("error", &SurfacePart::error,
-              "estimate of what whole nodes leave of its outline, no bound")
+              "estimate of the error because the outline consists of whole nodes, no bound")
       .def_ro("nodes", &SurfacePart::nodes, "number of them")
       .def("__float__", [](const SurfacePart &self) { return self.area; })
       .def("__repr__",
@@ -29,8 +29,8 @@ void bind_areas(nb::module_ &m)
            });
    nb::class_<ContactAreas>(readout, "ContactAreas", "Parts of the contact surface in a state.")
       .def_ro("contact", &ContactAreas::contact, "stick and slip together")
-      .def_ro("stick", &ContactAreas::stick, "pressed, and at rest")
-      .def_ro("slip", &ContactAreas::slip, "pressed, and slipping in whatever direction")
+      .def_ro("stick", &ContactAreas::stick, "pressed, without slip")
+      .def_ro("slip", &ContactAreas::slip, "pressed, and slipping in any direction")
       .def_ro("separation", &ContactAreas::separation, "open, or touching without force");
    readout.def(
       "contact_areas",
@@ -44,8 +44,8 @@ void bind_areas(nb::module_ &m)
       .def_ro("radius", &RadialEdge::radius,
               "of the circle that has the area of the nodes within")
       .def_ro("error", &RadialEdge::error,
-              "each node nearer than radius - error is within, each one beyond radius + error "
-              "outside; at least half an edge of a node; an estimate, no bound")
+              "all nodes nearer than radius - error are within the edge, and all beyond radius "
+              "+ error are outside; at least half an edge of a node; an estimate, no bound")
       .def("__float__", [](const RadialEdge &self) { return self.radius; })
       .def("__repr__",
            [](const RadialEdge &self)

@@ -135,7 +135,7 @@ NodalStiffness::Nodes nodes_in(const NodalStiffness &body, nb::handle nodes)
 {
    const auto some = [](NodalStiffness::Nodes found, const char *why)
    {
-      require(!found.empty(), "nodes", why, ", must name one node at least");
+      require(!found.empty(), "nodes", why, ", must name at least one node");
       return found;
    };
    if (nb::isinstance<nb::str>(nodes))
@@ -313,8 +313,8 @@ void bind_stiffness(nb::module_ &m)
       "The stiffness of one elastic body or several, with supports and loads, of any "
       "program.\n\n"
       "Forces are per unit thickness in the plane, of the whole circumference about an axis. "
-      "Where nodes are asked for, the name of a set goes, numbers of nodes, or a mask over "
-      "`nodes`. A direction is 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'.")
+      "Arguments for nodes are the name of a set, numbers of nodes, or a mask over `nodes`. A "
+      "direction is 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'.")
       .def(
          "__init__",
          [](Self *self, Matrix K, Numbers places, Numbers dofs, Numbers elements,
@@ -355,12 +355,13 @@ void bind_stiffness(nb::module_ &m)
          "formulation: 'plane', or 'axisymmetric', where x is r and K is of the whole "
          "circumference.\n"
          "elements: (elements, 3, 4, 6, 7, 8 or 9) nodes, corners in order around it, then the "
-         "middles of the sides; a list of such arrays if there are several kinds. They tell "
-         "outer edges, so that contact_line() takes nodes in any order. In space (elements, 4, "
+         "middles of the sides; a list of such arrays if there are several kinds. With them "
+         "outer edges are known, so that contact_line() takes nodes in any order. In space "
+         "(elements, 4, "
          "5, 6 or 8) corners of tetrahedra, pyramids, wedges and hexahedra, for "
          "contact_surface().\n"
          "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name. "
-         "name: what sentences call the body.\n"
+         "name: name of the body in messages.\n"
          "supports_left_out: K resists motions that nothing here holds (springs to the ground, "
          "supports whose rows are gone). Rows that hold nothing but their diagonal, or "
          "nothing, "
@@ -440,7 +441,7 @@ void bind_stiffness(nb::module_ &m)
          "nodes_of",
          [](const Self &self, const std::string &set)
          { return array_of_indices(self.nodes_of(set)); },
-         arg("set"), "Numbers of the nodes of a set, by its name in whatever capitals.")
+         arg("set"), "Numbers of the nodes of a set, by its name (capitals do not matter).")
       .def(
          "fix",
          [](Self &self, Nodes nodes, const std::string &direction)
@@ -449,7 +450,7 @@ void bind_stiffness(nb::module_ &m)
             for (int d : directions(self, direction)) { self.fix(at, d); }
          },
          arg("nodes"), arg("direction"),
-         "Holds nodes: they do not move along the direction, whatever the loads.\n\n"
+         "Holds nodes along a direction.\n\n"
          "nodes: the name of a set, numbers of nodes, or a mask over `nodes`.\n"
          "direction: 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'.")
       .def(
@@ -467,8 +468,8 @@ void bind_stiffness(nb::module_ &m)
          arg("load"), arg("nodes"), arg("direction"), arg("force"),
          "Adds a force at each node, per unit multiplier, to a load. The load may be a new "
          "one.\n\nload: its name. nodes: the name of a set, numbers of nodes, or a mask over "
-         "`nodes`. direction: 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'. force: that of "
-         "each node in this direction. About an axis it is the force on the whole "
+         "`nodes`. direction: 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'. force: on each "
+         "node in this direction. About an axis it is the force on the whole "
          "circumference.")
       .def(
          "add_displacement",
@@ -521,7 +522,7 @@ void bind_stiffness(nb::module_ &m)
          "loads: in words, as in case files, \"P traction TOP 0 -1; P force TIP 0 -1; D "
          "displacement-x END 0.01\": load, kind, set, values.")
       .def("parts", &Self::parts,
-           "The bodies that are connected to nothing, each called by a set that is all of it.")
+           "The separate bodies, each with the name of a set that contains all of its nodes.")
       .def(
          "contact_line",
          [](const Self &self, Nodes nodes, int order)
@@ -529,8 +530,8 @@ void bind_stiffness(nb::module_ &m)
          arg("nodes"), arg("order") = 0,
          "The trace of the body on nodes: the name of a set, numbers of nodes, or a mask over "
          "`nodes`.\n\norder 0: on outer edges all of whose nodes are "
-         "among the given ones, in whatever order. order 1 to 8, where no elements are known: "
-         "nodes in order, the body on their left, elements of that order through them.")
+         "among the given ones, in any order. order 1 to 8, if no elements are known: nodes in "
+         "order, the body on their left, elements of that order through them.")
       .def(
          "contact_surface",
          [](const Self &self, Nodes nodes)
@@ -569,11 +570,11 @@ void bind_stiffness(nb::module_ &m)
       "Reads a stiffness.\n\n"
       "matrix: a file of CalculiX (.sti), ABAQUS (.mtx), MATLAB (.mat with K, by SciPy) or a "
       "script (.mtx, .npy, .npz with .dofs; .npz of write_npz).\n"
-      "places: the file that says where nodes are, an .inp or .dofs, if that is not beside "
-      "it.");
+      "places: the file with the places of nodes, an .inp or .dofs, if it is not beside the "
+      "matrix with the same name.");
    m.def(
       "nodal_stiffness", [](CondensedBody &body) { return nodal_stiffness(body); }, arg("body"),
-      "The stiffness of a condensed body on its contact nodes, as another program takes it.");
+      "The stiffness of a condensed body on its contact nodes, for another program.");
    m.def(
       "write_abaqus",
       [](File name, const Self &stiffness) { write_abaqus(file(name), stiffness); },
@@ -584,8 +585,8 @@ void bind_stiffness(nb::module_ &m)
       "write_matrix_market",
       [](File name, const Self &stiffness) { write_matrix_market(file(name), stiffness); },
       arg("file"), arg("stiffness"),
-      "Writes a stiffness as MatrixMarket. file: an .mtx; the .dofs that read_stiffness() asks "
-      "for is written beside it.");
+      "Writes a stiffness as MatrixMarket. file: an .mtx; the .dofs that read_stiffness() "
+      "needs is written beside it.");
    m.def(
       "write_nastran",
       [](File name, const Self &stiffness) { write_nastran(file(name), stiffness); },
@@ -651,10 +652,10 @@ void bind_lines(nb::module_ &m)
          "as_meshed", &Self::as_meshed,
          "gaps are those of the edges as they are; else straight edges whose ends lie as on a "
          "smooth curve are taken for chords of it")
-      .def_prop_ro(
-         "chains", &line_chains, nb::sig("def chains(self) -> list[dict[str, typing.Any]]"),
-         "nodes that follow each other: first, nodes, loop, and how the boundary goes "
-         "on at both ends")
+      .def_prop_ro("chains", &line_chains,
+                   nb::sig("def chains(self) -> list[dict[str, typing.Any]]"),
+                   "runs of consecutive nodes: first, nodes (their number), loop, and ends "
+                   "(how the boundary continues at each end)")
       .def("__repr__",
            [](const Self &self)
            {
@@ -758,12 +759,12 @@ void bind_condensed(nb::module_ &m)
    nb::class_<Self>(m, "CondensedBody",
                     "A body reduced to its contact nodes: f = S u + sum of multiplier × load, "
                     "with u = {v; w} and f = {q; p} in the frames of its contact line.")
-      .def_rw("name", &Self::name, "what sentences call it")
+      .def_rw("name", &Self::name, "name of the body in messages")
       .def_prop_ro(
          "line", [](const Self &self) { return self.line; }, "a copy; without nodes in space")
       .def_prop_ro(
          "surface", [](const Self &self) { return self.surface; },
-         "a copy; without nodes but in space")
+         "a copy; it has nodes only in space")
       .def_prop_ro("S", viewed(&Self::S), "(2 n, 2 n), in space (3 n, 3 n), symmetric")
       .def_prop_ro("H", viewed(&Self::H), "loads by loads with the contact clamped")
       .def_prop_ro(
@@ -773,13 +774,13 @@ void bind_condensed(nb::module_ &m)
          "moved", viewed(&Self::moved),
          "(2 n, loads): displacements {x; y} of contact nodes that loads move, per unit "
          "multiplier; empty if none is")
-      .def_ro("thickness", &Self::thickness, "what forces are of, 1 unless thicken() is called")
-      .def(
-         "thicken", &Self::thicken, arg("times"),
-         "The plane body becomes so many times as thick: S, H and the forces of its loads, "
-         "which were per thickness, are multiplied. Pressures are over the area of the thinner "
-         "one of two bodies.\n"
-         "times: > 0, of a plane body.")
+      .def_ro("thickness", &Self::thickness,
+              "thickness for which all forces are, 1 unless thicken() is called")
+      .def("thicken", &Self::thicken, arg("times"),
+           "Multiplies the thickness of a plane body, and with it S, H and the forces of its "
+           "loads. Pressures are over the area of the thinner "
+           "one of two bodies.\n"
+           "times: > 0, of a plane body.")
       .def_ro("rigid_modes", &Self::rigid_modes, "rigid motions that are free")
       .def_ro("counters", &Self::counters)
       .def(
@@ -794,7 +795,7 @@ void bind_condensed(nb::module_ &m)
          "Displacements of all rows of the stiffness. u: {v; w} of the contact nodes of this "
          "body, (2 n,). multipliers: of its loads, in their order.")
       .def("error_estimate", &Self::error_estimate,
-           "Relative error of S from round-off, from above; a few solves.")
+           "Relative error of S from round-off, an upper estimate. Costs a few solves.")
       .def("__repr__",
            [](const Self &self)
            {

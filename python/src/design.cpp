@@ -155,8 +155,9 @@ Found found(const Wanted &wanted, const Eigen::VectorXd &start, DesignSettings s
 
 void bind_problem(nb::module_ &m)
 {
-   nb::class_<DesignCase>(m, "DesignCase",
-                          "One case of loads of a design. It is marched from rest.")
+   nb::class_<DesignCase>(
+      m, "DesignCase",
+      "One load case of a design. It is marched from the state before any load.")
       .def(
          "__init__",
          [](DesignCase *self, const std::string &name, const LoadHistory &history,
@@ -166,9 +167,9 @@ void bind_problem(nb::module_ &m)
                                   from ? finite(*from, "from_") : std::nan("")};
          },
          arg("name"), arg("history"), arg("weight") = 1.0, arg("from_") = nb::none(),
-         "name: used in messages.\nweight: of its responses; with a negative one they are made "
-         "large.\nfrom_: responses are taken at the points of the history from this time on; "
-         "None: at the last one alone.")
+         "name: used in messages.\nweight: factor of its responses; a negative one maximises "
+         "them.\nfrom_: responses are taken at the points of the history from this time on; "
+         "None: only at the last point.")
       .def_ro("name", &DesignCase::name)
       .def_ro("history", &DesignCase::history)
       .def_ro("weight", &DesignCase::weight)
@@ -178,10 +179,10 @@ void bind_problem(nb::module_ &m)
            });
 
    using Self = Wanted;
-   nb::class_<Self>(
-      m, "DesignProblem",
-      "The choice and its goal: variables x add x[j] times a change of parameters to those of "
-      "the problem, between bounds and under linear limits.")
+   nb::class_<Self>(m, "DesignProblem",
+                    "The variables of a design and its goal. Each variable adds x[j] times a "
+                    "change of parameters to those of the problem. Variables lie between "
+                    "bounds, and may have linear limits.")
       .def(
          "__init__",
          [](Self *self, const ReducedProblem &problem, std::vector<DesignCase> cases,
@@ -253,9 +254,9 @@ void bind_problem(nb::module_ &m)
       arg("problem"), arg("start"), arg("count"),
       nb::sig("def spread_starts(problem: DesignProblem, start: numpy.typing.ArrayLike, "
               "count: int) -> list[numpy.ndarray]"),
-      "Other starts for a search. `count` points are spread evenly over the box of the bounds. "
-      "From `start` each is approached as far as the limits allow, and along the limits that "
-      "are met.");
+      "Other starts for a search: `count` points that are spread evenly over the box of the "
+      "bounds. A point that violates limits is replaced by the place that is reached on the "
+      "way from `start` to it.");
    m.def(
       "limit_curvature",
       [](Self &problem, double least, double most)
@@ -272,7 +273,8 @@ void bind_report(nb::module_ &m)
       .def_ro("index", &ActiveResponse::index,
               "in the objective's list; the node of a pressure")
       .def_ro("value", &ActiveResponse::value, "times the case's weight")
-      .def_ro("multiplier", &ActiveResponse::multiplier, "share of it, they add up to 1")
+      .def_ro("multiplier", &ActiveResponse::multiplier,
+              "its share in the optimum; all shares add up to 1")
       .def("__repr__",
            [](const ActiveResponse &self)
            {
@@ -283,8 +285,9 @@ void bind_report(nb::module_ &m)
               return text.str();
            });
    using Self = Found;
-   nb::class_<Self>(m, "DesignReport",
-                    "The best design that was found, and how far it is an optimum.")
+   nb::class_<Self>(
+      m, "DesignReport",
+      "The best design that was found, and how well it meets the conditions of an optimum.")
       .def_prop_ro(
          "status", [](const Self &self) { return name(self.report.status); },
          "'optimal': the conditions of optimality hold; 'improved', 'no equilibrium', "
@@ -342,9 +345,9 @@ void bind_report(nb::module_ &m)
       },
       arg("problem"), arg("start"), nb::kw_only(), arg("settings") = DesignSettings(),
       arg("progress") = false, arg("stop") = nb::none(), arg("members"),
-      "Finds variables that serve the goal best, from a start within bounds and limits. The "
+      "Finds the best variables for the goal, from a start within bounds and limits. The "
       "optimum is local, because contact is not convex.\n\nCtrl-C, `stop` and `progress` are "
-      "asked between iterations. There is a warning (OutcomeWarning) for a status other than "
+      "checked between iterations. There is a warning (OutcomeWarning) for a status other than "
       "'optimal'.");
 }
 
@@ -353,7 +356,7 @@ void bind_report(nb::module_ &m)
 void bind_design(nb::module_ &m)
 {
    nb::module_ design =
-      m.def_submodule("design", "Derivatives of what a march returns, and designs.");
+      m.def_submodule("design", "Derivatives of the results of marches, and designs.");
    bind_settings<DesignSettings>(design);
    bind_sensitivity(design);
    bind_readout_gradients(design);

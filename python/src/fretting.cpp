@@ -131,9 +131,11 @@ void define_of_edge(nb::module_ &m, const char *name, double (*f)(const Edge &, 
 
 void bind_near_edge(nb::module_ &m)
 {
-   nb::class_<Edge>(m, "Edge",
-                    "The edge of a contact at one instant: p = k_n √t, and q = k_t/√t if "
-                    "nothing slipped, at the distance t from the edge.")
+   nb::class_<Edge>(
+      m, "Edge",
+      "The edge of a contact at one instant. At the distance t from the edge the pressure is p "
+      "= k_n √t, and the shear would be q = k_t/√t if nothing had slipped. Any consistent "
+      "units; with N and mm k_n is in MPa/√mm, k_t in MPa√mm.")
       .def(
          "__init__",
          [](Edge *self, double k_n, double k_t, double friction)
@@ -158,9 +160,12 @@ void bind_near_edge(nb::module_ &m)
       "2 |K_T|/(f K_N)");
    m.def(
       "edge_stress", [](const Edge &edge) { return edge_stress(edge); }, arg("edge"),
-      "σ_xx at the contact edge");
-   define_of_edge(m, "pressure", &pressure, {"t"}, "at t; 0 outside the contact");
-   define_of_edge(m, "shear_traction", &shear_traction, {"t"}, "at t under partial slip");
+      "Stress σ_xx along the surface at the contact edge, tension positive.");
+   define_of_edge(
+      m, "pressure", &pressure, {"t"},
+      "Pressure at the distance t from the edge, compression positive; 0 outside the contact.");
+   define_of_edge(m, "shear_traction", &shear_traction, {"t"},
+                  "Shear traction at the distance t from the edge under partial slip.");
    m.def(
       "stress",
       [](const Edge &edge, Numbers t, Numbers y)
@@ -175,32 +180,45 @@ void bind_near_edge(nb::module_ &m)
                                                 s[2] = at.xy;
                                              }));
       },
-      arg("edge"), arg("t"), arg("y"), "xx, yy, xy in the near-edge field, y >= 0");
+      arg("edge"), arg("t"), arg("y"),
+      "Stresses xx, yy and xy in the near-edge field at (t, y), y >= 0 the depth, tension "
+      "positive.");
    define_of_edge(m, "reversed_slip_zone", &reversed_slip_zone, {"k_t_range"}, "ΔK_T/(f K_N)");
-   define_of_edge(m, "edge_stress_range", &edge_stress_range, {"k_t_range"},
-                  "range of σ_xx at the contact edge");
+   define_of_edge(
+      m, "edge_stress_range", &edge_stress_range, {"k_t_range"},
+      "Range of σ_xx at the contact edge over a cycle in which K_T changes by k_t_range.");
    define(m, "mode_two_range", &mode_two_range, {"k_t_range"}, "√(2π) ΔK_T");
    define_of_edge(m, "slip_energy_density", &slip_energy_density, {"k_t_range", "modulus", "t"},
-                  "frictional energy per area and cycle at t");
+                  "Energy lost by friction per area and cycle at the distance t from the edge. "
+                  "modulus: E*.");
    define(m, "slip_energy_max", &slip_energy_max, {"k_t_range", "modulus"}, "√3 ΔK_T²/E*");
    define_of_edge(m, "slip_energy_total", &slip_energy_total, {"k_t_range", "modulus"},
-                  "per cycle, edge and thickness");
+                  "Energy lost by friction per cycle, edge and unit thickness. modulus: E*.");
    define(m, "hertz_slip_energy", &hertz_slip_energy,
           {"friction", "load", "load_ratio", "modulus"},
-          "per cycle and thickness of a Hertz contact under ±Q, load_ratio Q/fP");
-   define(m, "crack_factor", &crack_factor, {"ratio"}, "κ(c/d): K_I = 2 K_T κ(c/d)");
-   define(m, "power_law_factor", &power_law_factor, {"exponent"}, "h(λ) of an edge crack");
-   define_of_edge(m, "crack_intensity", &crack_intensity, {"depth"},
-                  "K_I of a crack at the contact edge");
+          "Energy lost by friction per cycle and unit thickness of a Hertz contact under ±Q. "
+          "load_ratio: Q/fP, 0 to 1. modulus: E*.");
+   define(m, "crack_factor", &crack_factor, {"ratio"},
+          "κ(c/d) of the shear part of the near-edge field, K_I = 2 K_T κ(c/d). ratio: crack "
+          "depth over slip zone, at least 0.");
+   define(
+      m, "power_law_factor", &power_law_factor, {"exponent"},
+      "h(λ) of an edge crack under the stress (y/c)^λ, K_I = σ0 √(πc) h(λ). exponent: λ > -1.");
+   define_of_edge(
+      m, "crack_intensity", &crack_intensity, {"depth"},
+      "K_I of a crack of a depth at the contact edge; negative if it is pressed shut.");
    define_of_edge(m, "crack_intensity_range", &crack_intensity_range, {"k_t_range", "depth"},
-                  "range of K_I in the steady cycle");
+                  "Range of K_I of a crack of a depth in the steady cycle in which K_T changes "
+                  "by k_t_range.");
 }
 
 void bind_calibration(nb::module_ &m)
 {
-   define(m, "hertz_k_n", &hertz_k_n, {"load", "half_width"}, "K_N of a Hertz contact");
+   define(m, "hertz_k_n", &hertz_k_n, {"load", "half_width"},
+          "K_N of a Hertz contact of a half-width.");
    define(m, "symmetric_k_n", &symmetric_k_n, {"half_width", "load_rate"},
-          "of any symmetric contact, load_rate dP/da");
+          "K_N of any symmetric contact. load_rate: dP/da, growth of the load with the "
+          "half-width.");
    define(m, "edge_gradient", &edge_gradient, {"radius", "modulus"}, "E*/R");
    m.def(
       "contact_modulus",
@@ -208,7 +226,8 @@ void bind_calibration(nb::module_ &m)
          return contact_modulus(finite(young, "young"), finite(poisson, "poisson"),
                                 plane_stress);
       },
-      arg("young"), arg("poisson"), arg("plane_stress") = false, "E* of two similar bodies");
+      arg("young"), arg("poisson"), arg("plane_stress") = false,
+      "E* of two bodies of one material: E/(2 (1 - ν²)) in plane strain, E/2 in plane stress.");
 
    nb::class_<HertzContact>(m, "HertzContact")
       .def_ro("half_width", &HertzContact::half_width)
@@ -228,7 +247,9 @@ void bind_calibration(nb::module_ &m)
          return hertz_contact(finite(load, "load"), finite(radius, "radius"),
                               finite(modulus, "modulus"));
       },
-      arg("load"), arg("radius"), arg("modulus"), "Load per thickness, relative radius, E*.");
+      arg("load"), arg("radius"), arg("modulus"),
+      "A Hertz contact. load: per unit thickness. radius: relative radius 1/(1/R1 + 1/R2). "
+      "modulus: E*.");
    nb::class_<FlatRoundedContact>(m, "FlatRoundedContact")
       .def_ro("half_width", &FlatRoundedContact::half_width)
       .def_ro("k_n", &FlatRoundedContact::k_n)
@@ -239,7 +260,7 @@ void bind_calibration(nb::module_ &m)
             return nb::borrow<Entries>(each_entry(
                {x}, {"x"}, 1, [&](const double *at, double *p) { *p = self.pressure(*at); }));
          },
-         arg("x"), "at x from the centre");
+         arg("x"), "Pressure at the distance x from the centre; 0 outside the contact.");
    m.def(
       "flat_rounded_contact",
       [](double load, double radius, double flat, double modulus)
@@ -259,7 +280,8 @@ void bind_calibration(nb::module_ &m)
          return std::pair(k.trailing, k.leading);
       },
       arg("half_width"), arg("shear"), arg("bulk_difference") = 0.0,
-      "K_T of the trailing and of the leading edge.");
+      "K_T of the trailing and of the leading edge. shear: force on the cracked body per unit "
+      "thickness. bulk_difference: tension in the cracked body less that in the other one.");
    m.def(
       "hertz_stress",
       [](double friction, double load_ratio, Numbers x, Numbers y)
@@ -277,10 +299,13 @@ void bind_calibration(nb::module_ &m)
                                              }));
       },
       arg("friction"), arg("load_ratio"), arg("x"), arg("y"),
-      "xx, yy, xy under a Hertz contact in partial slip, in units of p0 and a.");
+      "Stresses xx, yy, xy at (x, y), y >= 0 the depth, under a Hertz contact in partial slip, "
+      "in units of p0 and a, tension positive.");
    define(m, "first_yield_load", &first_yield_load, {"friction", "constraint"},
-          "K_N √d/k at first yield of the slip zone");
-   define(m, "full_yield_load", &full_yield_load, {"friction"}, "… when all of it yields");
+          "K_N √d over the yield stress in shear at first yield of the slip zone. constraint: "
+          "Poisson's ratio in plane strain, 0 in plane stress.");
+   define(m, "full_yield_load", &full_yield_load, {"friction"},
+          "K_N √d over the yield stress in shear when the whole slip zone yields.");
    m.def(
       "out_of_plane_constraint",
       [](double poisson, bool plane_stress)
@@ -311,7 +336,8 @@ void bind_corner(nb::module_ &m)
             Corner{finite(pad_angle, "pad_angle"), finite(body_angle, "body_angle")});
       },
       arg("pad_angle"), arg("body_angle"),
-      "Angles in radians that a pad and a body of the same material fill.");
+      "Modes at the corner of a pad on a body of the same material. pad_angle, body_angle: "
+      "angles that they fill at the corner, in radians, with a sum above π and at most 2π.");
    m.def(
       "rigid_corner_modes",
       [](double pad_angle, double poisson, bool plane_stress)
@@ -353,7 +379,9 @@ void bind_criteria(nb::module_ &m)
       "find_material",
       [](File materials, const std::string &name)
       { return find_material(read_materials(file(materials, "materials")), name); },
-      arg("materials"), arg("name"), "materials: a file of them.");
+      arg("materials"), arg("name"),
+      "Finds a record by its name. materials: file of records (JSON); None: the file of the "
+      "package.");
 
    m.def(
       "critical_plane",
@@ -375,7 +403,9 @@ void bind_criteria(nb::module_ &m)
       "plain_fatigue_cycle",
       [](const Self &material)
       { return array(Eigen::MatrixXd(plain_fatigue_cycle(material))); },
-      arg("material"), "The cycle that a plain specimen just endures, for critical_plane().");
+      arg("material"),
+      "The cycle of uniaxial stress that a plain specimen of a material just endures, for "
+      "critical_plane().");
 
    nb::class_<FrettingReport> report(m, "FrettingReport",
                                      "Results of the criteria for an edge.");
@@ -435,7 +465,7 @@ void bind_criteria(nb::module_ &m)
       arg("bulk_stress") = nb::none(), arg("stress_gradient") = 0.0,
       arg("plane_stress") = false, arg("half_width") = 0.0, arg("rounded_width") = 0.0,
       arg("settings") = FrettingSettings(), arg("members"),
-      "Judges a contact edge at peak load; N, mm, MPa.");
+      "Applies the fretting criteria to a contact edge at peak load, in N, mm, MPa.");
    m.def(
       "threshold_ordinate",
       [](const std::string &criterion, double friction, double abscissa, double stress_ratio)

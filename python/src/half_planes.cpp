@@ -53,8 +53,8 @@ void bind_half_planes(nb::module_ &m)
             new (self) Material(material);
          },
          arg("young"), arg("poisson"), arg("plane_stress") = false,
-         "young: Young's modulus E, > 0. poisson: Poisson's ratio, -1 to 0.5, neither of them. "
-         "plane_stress: is the plane one of stress? Else of strain.")
+         "young: Young's modulus E, > 0. poisson: Poisson's ratio, above -1 and below 0.5. "
+         "plane_stress: plane stress if true, else plane strain.")
       .def_ro("young", &Material::young)
       .def_ro("poisson", &Material::poisson)
       .def_prop_ro("plane_stress",
@@ -101,10 +101,11 @@ void bind_half_planes(nb::module_ &m)
          "material: its elastic constants.\n"
          "depth: of the plane, > 0: displacements are relative to the point at this depth "
          "below "
-         "each force; what given forces do to a contact does not depend on it. At least twice "
+         "each force; contact under given forces does not depend on it. At least twice "
          "the length of the contact; 1e4 times is fine.\n"
-         "symmetric: of the plane, that the line through the point along the normal is one of "
-         "symmetry (half a model). It must be said where a contact line ends at a held node.\n"
+         "symmetric: in the plane, true if the line through the point along the normal is a "
+         "plane of symmetry (half a model). It must be given if a contact line ends at a held "
+         "node.\n"
          "point: of the surface. normal: into the half-plane, a unit vector.\n"
          "forces: by name, (x, y), from far away; without any it is held.\n"
          "bulk: by name, uniform stresses along the surface, tension positive; about an axis "
@@ -158,7 +159,8 @@ void bind_half_planes(nb::module_ &m)
          return warned(std::move(result));
       },
       arg("body"), arg("surface"),
-      "A body in space to the nodes of a surface.\n\nsurface: of body.contact_surface().");
+      "Condenses a body in space to the nodes of a surface.\n\nsurface: from "
+      "body.contact_surface().");
    m.def(
       "condense",
       [](const HalfPlane &body, const ContactLine &line)

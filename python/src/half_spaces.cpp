@@ -58,8 +58,8 @@ void bind_half_spaces(nb::module_ &m)
          "vertices: (k, 2), and triangles: (n, 3), their corners, rows of vertices from 0, as "
          "of scipy.spatial.Delaunay: instead of size and centres.\n"
          "turns: is the body above free to turn about the normal through x = y = 0?\n"
-         "ends: does a body end at the rim of the cells, as a flat punch? Else contact "
-         "that is compressed there is cut off, and marches warn.")
+         "ends: does a body end at the rim of the cells, as a flat punch? If not, contact that "
+         "is compressed there is cut off, and marches warn.")
       .def(
          "problem",
          [](const HalfSpace &self, Numbers gap)
@@ -193,9 +193,8 @@ void bind_half_spaces(nb::module_ &m)
    m.def(
       "read_heights", [](File name, double unit) { return read_heights(file(name), unit); },
       nb::arg("file"), nb::arg("unit") = 1.0,
-      "Reads a text file of surface data, SDF of ISO 25178-71. Its lengths are in metres; "
-      "unit: "
-      "that they are wanted in, 1e-3 for mm.");
+      "Reads a text file of surface data, SDF of ISO 25178-71. Its lengths are in metres. "
+      "unit: unit of the result in metres, 1e-3 for mm.");
 }
 
 } // namespace cattaneo::python

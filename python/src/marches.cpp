@@ -181,7 +181,7 @@ March march_by(const Marcher &marcher, const ReducedProblem &problem, const Hist
    if (march.report.status == FrictionStatus::converged &&
        march.report.counters.increments == 0)
    {
-      warn("march: nothing was marched, the state stands at time " +
+      warn("march: nothing was marched, because the state has the time  " +
            exact_text(march.report.time) + ", at the end of the history or beyond it");
    }
    return march;
@@ -293,7 +293,7 @@ void bind_cycles(nb::module_ &m)
 {
    nb::class_<Loop>(
       m, "Loop",
-      "The way of one load in the plane of its force and displacement, over a cycle.")
+      "The path of one load in the plane of its force and displacement, over a cycle.")
       .def_prop_ro("work", &Loop::work, "enclosed area where the loop closes")
       .def_prop_ro("force_range", &Loop::force_range)
       .def_prop_ro("displacement_range", &Loop::displacement_range)
@@ -343,8 +343,8 @@ void bind_interface_marches(nb::module_ &m)
 {
    using Self = InterfaceMarch;
    nb::class_<Self>(m, "InterfaceMarch",
-                    "What one interface went through in a march. Arrays have an entry an "
-                    "increment, as those of MarchReport.")
+                    "Results of one interface in a march. Arrays have an entry for each "
+                    "increment, as in MarchReport.")
       .def_ro("name", &Self::name)
       .def_prop_ro(
          "nodes", [](const Self &self) { return array_of_indices(self.nodes); },
@@ -366,10 +366,10 @@ void bind_interface_marches(nb::module_ &m)
          "number of nodes that stick")
       .def_prop_ro(
          "slipping", [](const Self &self) { return array_of_indices(self.slipped); },
-         "number of nodes that slip, whichever way")
+         "number of nodes that slip, in any direction")
       .def_prop_ro(
          "open", [](const Self &self) { return array_of_indices(self.open); },
-         "number of nodes that are apart, or touch without force")
+         "number of nodes that are open, or touch without force")
       .def_prop_ro(
          "dissipation",
          [](const Self &self)
@@ -405,9 +405,9 @@ LoadHistory history_from(const ReducedProblem &problem, const History &history,
       const double begin = loads.multipliers(l, 0), stands = state.multipliers[l];
       require(std::abs(begin - stands) <= 1e-12 * std::abs(stands), "history: load '",
               problem.patterns[l].name, "' is ", begin, " at its first point, and ", stands,
-              state.multipliers.isZero(0)
-                 ? " before any load; begin with {}"
-                 : " in the state that it goes on from; begin with {}, which keeps its loads");
+              state.multipliers.isZero(0) ? " before any load; begin with {}"
+                                          : " in the state from which the march continues; "
+                                            "begin with {}, which keeps its loads");
    }
    return loads;
 }
@@ -444,10 +444,9 @@ void bind_marches(nb::module_ &m)
 {
    bind_settings<FrictionSettings>(m);
    bind_settings<MarchSettings>(m);
-   nb::class_<LoadHistory>(
-      m, "LoadHistory",
-      "A piecewise-linear history of load multipliers: an opening part, then "
-      "a cycle that repeats.")
+   nb::class_<LoadHistory>(m, "LoadHistory",
+                           "A piecewise-linear history of load multipliers: points that are "
+                           "marched once, then a cycle that repeats.")
       .def_static(
          "through",
          [](const ReducedProblem &problem, const std::vector<NamedLoads> &points,
@@ -504,7 +503,7 @@ void bind_marches(nb::module_ &m)
    nb::class_<Cycle>(m, "CycleRecord", "One marched cycle.")
       .def_prop_ro("cycle", copied(&Cycle::record, &CycleRecord::cycle), "from 1")
       .def_prop_ro("whole", copied(&Cycle::record, &CycleRecord::whole),
-                   "False if the march was taken up within it")
+                   "False if the march was resumed within this cycle")
       .def_prop_ro(
          "loops",
          [](const Cycle &self)
@@ -539,8 +538,8 @@ void bind_marches(nb::module_ &m)
    const auto number_of = [](auto member) // of each increment
    { return [member](const Self &self) { return array(self.each(member)); }; };
    nb::class_<Self> report(m, "MarchReport",
-                           "What a march came to: `state` at its end, arrays with an entry an "
-                           "increment, and loops a cycle.");
+                           "The result of a march: `state` at its end, arrays with an entry "
+                           "for each increment, and loops for each cycle.");
    bind_outcome(report, [](const Self &self) -> const MarchReport & { return self.report; });
    report
       .def_prop_ro(
@@ -638,7 +637,7 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro("events", copied(&Self::report, &MarchReport::events),
                    "number of changes of state on an exact path")
       .def_prop_ro("event_time", copied(&Self::report, &MarchReport::event_time),
-                   "where the outcome is not 'converged': when it came about")
+                   "if the outcome is not 'converged': the time at which it occurred")
       .def_prop_ro("event_multipliers", copied(&Self::report, &MarchReport::event_multipliers))
       .def_prop_ro("steady_cycle", copied(&Self::report, &MarchReport::steady_cycle),
                    "0: not reached")
@@ -649,21 +648,21 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro(
          "loss_error_is",
          [](const Self &self) { return self.report.loss_error.bound ? "bound" : "estimate"; },
-         "'bound' where the exact path was followed beside the march, else 'estimate'")
+         "'bound' if a second march followed the exact path, else 'estimate'")
       .def_prop_ro(
          "loss_error_by",
          [](const Self &self)
          {
             const LossError &error = self.report.loss_error;
             const bool asked = !error.by.empty() || !std::isnan(error.value);
-            return asked ? error.by : "it was not asked for: MarchSettings.loss_error";
+            return asked ? error.by : "it was not requested: MarchSettings.loss_error";
          },
-         "what was marched beside it, or why nothing is known")
+         "what was marched for comparison, or why the error is not known")
       .def_prop_ro(
          "extrapolated_loss",
          [](const Self &self) { return self.report.loss_error.extrapolated; },
          "loss of this march without increments, where the changes from march to march fall in "
-         "one ratio; nan: they do not, or it was not asked for")
+         "one ratio; nan: they do not, or it was not requested")
       .def_prop_ro(
          "energy_imbalance", copied(&Self::report, &MarchReport::energy_imbalance),
          "balance of the energies, relative; of second order in the increments, so that it is "
@@ -697,9 +696,9 @@ void bind_marches(nb::module_ &m)
       nb::kw_only(), arg("settings") = told, arg("keep_states") = false,
       arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
       arg("members"),
-      "Marches a contact along a load history, from rest or from `state`, which stays as it "
-      "is.\n\n"
-      "problem: the contact, which stays as it is as well.\n"
+      "Marches a contact along a load history, from rest or from `state`, which is not "
+      "changed.\n\n"
+      "problem: the contact, which is not changed either.\n"
       "history: points, [{}, {'P': 1}, {'Q': 0.2}], the first of which is where the state "
       "stands; a load that a point does not name keeps its value. Or a LoadHistory, whose "
       "times "
@@ -712,15 +711,14 @@ void bind_marches(nb::module_ &m)
       "keep_states: keeps the state of every increment. observer: is called with each.\n"
       "progress: True shows a line on stderr; a function is called with Progress. Other "
       "threads run meanwhile; Ctrl-C raises KeyboardInterrupt, and `stop`, a threading.Event, "
-      "ends the march with status 'stopped' and what there is.\n\n"
+      "ends the march with status 'stopped' and the results so far.\n\n"
       "An outcome other than 'converged' is warned of (OutcomeWarning) and stands in the "
       "report.");
    using Joint = BoltedJoint;
    nb::class_<Joint>(
       m, "BoltedJoint",
-      "Bolts that a load history tightens, each to a force: before that it does "
-      "nothing, afterwards it is a spring. Each loses what the others' tightening "
-      "takes from it.")
+      "Bolts that a load history tightens, each to a force. Before that a bolt does nothing, "
+      "afterwards it is a spring. Each loses force while others are tightened.")
       .def(
          "__init__",
          [](Joint *self, const Reduction &loose, const NamedLoads &bolts)
@@ -760,8 +758,8 @@ void bind_marches(nb::module_ &m)
            "As march(), whose arguments these are.\n\n"
            "history: a point that names a bolt's load tightens the bolt, and the multiplier is "
            "its force then; a point that names it again tightens it again. In states the "
-           "multiplier is its pretension. A bolt that would push ends the "
-           "march with status 'stopped' where its force is zero.\n"
+           "multiplier is its pretension. The march ends with status 'stopped' where the force "
+           "of a bolt has fallen to zero and would turn into compression.\n"
            "state: of `problem`, where the march begins; None: before any load.\n"
            "settings, keep_states, observer, progress, stop: as march() has them.")
       .def("__repr__",
@@ -776,7 +774,8 @@ void bind_marches(nb::module_ &m)
       [](const ReducedProblem &problem, const ContactState &state)
       { return array(conjugates(problem, state)); },
       arg("problem"), arg("state"),
-      "What does work with each load's multiplier in a state of a problem, in the order of "
+      "Conjugate of each load in a state of a problem, with which its multiplier does work, in "
+      "the order of "
       "problem.loads: displacement of a force, along it, reaction of a prescribed "
       "displacement, pushing along it.");
 }

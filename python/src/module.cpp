@@ -42,7 +42,7 @@ void bind_common(nb::module_ &m)
       "or a limit that is not proven. `status` and `message` of the report tell the same.",
       PyExc_RuntimeWarning, nullptr));
 
-   nb::class_<Progress>(m, "Progress", "How far long work has come.")
+   nb::class_<Progress>(m, "Progress", "Progress of long work.")
       .def_ro("share", &Progress::share,
               "share of the work that is done, 0 to 1; nan: not known")
       .def_ro("steps", &Progress::steps, "increments of a march, iterations of a limit")
@@ -53,16 +53,16 @@ void bind_common(nb::module_ &m)
       .def_ro("name", &BlasKernels::name,
               "OpenBLAS's own name, as 'Haswell'; '' with another BLAS or with none")
       .def_ro("better", &BlasKernels::better,
-              "name of safe ones that are far faster on this processor; '': there are none")
+              "name of safe kernels that are far faster on this processor; '': there are none")
       .def_prop_ro("statement", &BlasKernels::statement,
-                   "one sentence; it tells what to do if others are far faster")
+                   "one sentence with their name; it says what to do if others are far faster")
       .def("__repr__", &BlasKernels::statement);
    m.def("blas_kernels", &blas_kernels,
          "The kernels of OpenBLAS that work in this process. OpenBLAS chooses them when it is "
          "loaded, by the name of the processor. The environment variable OPENBLAS_CORETYPE, "
          "set before Python starts, chooses others.");
-   nb::class_<Counters> counters(m, "Counters",
-                                 "How often each expensive act was done: dict(counters).");
+   nb::class_<Counters> counters(
+      m, "Counters", "How often each expensive operation was done: dict(counters).");
    counters.def(
       "keys",
       [](const Counters &self)
@@ -71,7 +71,7 @@ void bind_common(nb::module_ &m)
          Counters::for_each(self, [&](const char *name, long) { names.append(name); });
          return names;
       },
-      nb::sig("def keys(self) -> list[str]"), "Names of the counts.");
+      nb::sig("def keys(self) -> list[str]"), "Names of the operations.");
    counters.def("__getitem__",
                 [](const Counters &self, const std::string &name)
                 {

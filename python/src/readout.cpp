@@ -109,7 +109,7 @@ void bind_zones(nb::module_ &m)
       { return named(problem, zones(problem, checked(problem, state)), false); },
       arg("problem"), arg("state"),
       "Zones of a state of the problem along its contact lines, in the order of the nodes: "
-      "neighbouring nodes that stick, slip in one direction, or are apart.");
+      "neighbouring nodes that stick, slip in one direction, or are open.");
    m.def(
       "contact_zones",
       [](const ReducedProblem &problem, const ContactState &state)
@@ -123,7 +123,7 @@ void bind_zones(nb::module_ &m)
       { return named(problem, {contact_zone(problem, checked(problem, state))}, true)[0]; },
       arg("problem"), arg("state"),
       "The widest of contact_zones(), over all lines and interfaces of the problem in this "
-      "state. Its width is 0 if all nodes are apart.");
+      "state. Its width is 0 if all nodes are open.");
    m.def(
       "stick_zone",
       [](const ReducedProblem &problem, const ContactState &state)
@@ -148,7 +148,7 @@ void bind_edges(nb::module_ &m)
    nb::class_<FittedIntensity>(m, "FittedIntensity", "An intensity at an edge of contact.")
       .def_ro("value", &FittedIntensity::value)
       .def_ro("relative_error", &FittedIntensity::relative_error, "estimate")
-      .def_ro("nodes", &FittedIntensity::nodes, "used by the fit")
+      .def_ro("nodes", &FittedIntensity::nodes, "number of nodes used by the fit")
       .def_prop_ro(
          "window",
          [](const FittedIntensity &self)
@@ -201,15 +201,16 @@ void bind_edges(nb::module_ &m)
          return fit_edge(tractions, settings);
       },
       arg("tractions"), nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
-      "K_N and K_T by least squares. tractions: those near the edge, from any program. "
-      "settings: which nodes are fitted.");
+      "K_N and K_T by least squares. tractions: near the edge, from any program. settings: "
+      "which nodes are fitted. InputError with fewer than 4 nodes in the window.");
 
    nb::class_<ContactEdge>(m, "ContactEdge", "One end of a stretch of contact.")
       .def_ro("position", &ContactEdge::position)
       .def_ro("side", &ContactEdge::side, "+1: the contact lies at larger arc length")
       .def_ro("half_width", &ContactEdge::half_width)
       .def_ro("complete", &ContactEdge::complete)
-      .def_ro("why_not", &ContactEdge::why_not, "why there are no intensities, or empty")
+      .def_ro("why_not", &ContactEdge::why_not,
+              "reason why there are no intensities, '' if there are some")
       .def_ro("k_n", &ContactEdge::k_n)
       .def_ro("k_t", &ContactEdge::k_t)
       .def_ro("friction", &ContactEdge::friction)
@@ -270,7 +271,7 @@ void bind_edges(nb::module_ &m)
 void bind_readout(nb::module_ &m)
 {
    nb::module_ readout =
-      m.def_submodule("readout", "What a state says: zones and edges of contact, tractions.");
+      m.def_submodule("readout", "Results of a state: zones and edges of contact, tractions.");
    bind_settings<FitSettings>(readout);
    bind_zones(readout);
    bind_edges(readout);

@@ -59,7 +59,8 @@ void bind_edge_responses(nb::module_ &m)
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("modes"),
       arg("cracked") = "second", nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
       "Strengths of fretting.fit_corner() at a complete edge. Use trace_stuck().");
-   nb::class_<MovingEdge>(m, "MovingEdge", "An edge that moves, and the pressure's K_N there.")
+   nb::class_<MovingEdge>(m, "MovingEdge",
+                          "The position of an edge that moves, and K_N there, as responses.")
       .def_ro("position", &MovingEdge::position, "arc length")
       .def_ro("k_n", &MovingEdge::k_n);
    m.def(
@@ -82,7 +83,7 @@ void bind_edge_responses(nb::module_ &m)
       },
       arg("problem"), arg("trace"), arg("pressed"), arg("loaded"),
       "The trace up to its state `pressed`, and then readout.fully_stuck() under the loads of "
-      "its state `loaded`. K_T is read from it.");
+      "its state `loaded`. K_T is computed from it.");
 }
 
 LimitGradient known_or_warned(const char *what, LimitGradient gradient)

@@ -214,8 +214,10 @@ void bind_reduced_problems(nb::module_ &m)
          "The entry 'kind' is 'force', 'moment', 'displacement', 'bolt' or another kind of the "
          "program contact. The entry 'value' is positive. A load of forces at multiplier m has "
          "the size m · value, and its displacement is conjugate / value. A prescribed "
-         "displacement has the size m · value, and its reaction is conjugate / value. The entry "
-         "'direction' is a unit vector, or (0, 0) if the load has none. The entry 'place' names "
+         "displacement has the size m · value, and its reaction is conjugate / value. The "
+         "entry "
+         "'direction' is a unit vector, or (0, 0) if the load has none. The entry 'place' "
+         "names "
          "the loaded part.")
       .def("__repr__",
            [](const LoadPattern &self)
@@ -258,7 +260,7 @@ void bind_reduced_problems(nb::module_ &m)
          "increasing; with it the nodes follow each other on one line.\nposition: (n, 2), or "
          "(n, 3) for a surface in space.\nH: loads by loads, the displacements of forces "
          "(reactions of displacements) with clamped contact nodes; None: not known, conjugates "
-         "are then the contact's part alone.\nrigid_motions: (c n + n, k), all motions (v, w) "
+         "are then only the contact's part.\nrigid_motions: (c n + n, k), all motions (v, w) "
          "that nothing resists, as columns; None: they are computed.")
       .def_prop_ro("nodes", &Self::nodes, "n")
       .def_prop_ro("components", &Self::components, "c")
@@ -318,8 +320,9 @@ void bind_reduced_problems(nb::module_ &m)
             set_friction_law(self, law, chosen);
          },
          arg("points"), arg("backward") = nb::none(), arg("nodes") = nb::none(),
-         "Sets another law of friction: a polyline from (0, 0) that goes straight on beyond "
-         "its last point.\n\npoints: (pressure, shear strength), (k, 2), tractions. backward: "
+         "Sets a law of friction other than Coulomb's: a polyline from (0, 0) that goes "
+         "straight on beyond its last point.\n\npoints: (pressure, shear strength), (k, 2), "
+         "tractions. backward: "
          "the same for slip backward, if it differs. nodes: where it holds; None: at all "
          "nodes. [[1, f]] is Coulomb's law.")
       .def_prop_ro(
@@ -337,7 +340,7 @@ void bind_reduced_problems(nb::module_ &m)
          "(n, 2 per body), rows of each node in each body's stiffness, -1: none")
       .def_prop_ro("chains", &chains,
                    nb::sig("def chains(self) -> list[dict[str, typing.Any]]"),
-                   "lines that the nodes form")
+                   "runs of nodes that follow each other along a line")
       .def_prop_ro(
          "rigid_motions", [](const Self &self) { return array(self.rigid_motions); },
          "{v; w} that nothing resists, a column each")
@@ -375,7 +378,7 @@ void bind_reduced_problems(nb::module_ &m)
             indices(rows, "rows", 0, static_cast<long>(problem.slips()) - 1);
          hold(problem, {held.begin(), held.end()});
       },
-      arg("problem"), arg("rows"), "Holds rows of A of a problem: v = 0 there.");
+      arg("problem"), arg("rows"), "Marks rows of A of a problem as held: v = 0 there.");
    m.def(
       "set_friction",
       [](Self &problem, double coefficient)
@@ -414,10 +417,10 @@ void bind_reduced_problems(nb::module_ &m)
 
    nb::class_<CriticalFriction>(m, "CriticalFriction",
                                 "Coefficients of friction at which the character of a contact "
-                                "changes, whatever the loads.")
-      .def_ro(
-         "node", &CriticalFriction::node,
-         "with more friction the rate problem of the weakest node alone has no unique answer")
+                                "changes, independent of the loads.")
+      .def_ro("node", &CriticalFriction::node,
+              "with more friction the rate problem of the node with this value, taken alone, "
+              "has several answers or none")
       .def_ro("weakest_node", &CriticalFriction::weakest_node)
       .def_ro("locking", &CriticalFriction::locking, "above it the contact can lock itself")
       .def_ro("unique_below", &CriticalFriction::unique_below,
@@ -444,7 +447,7 @@ void bind_reduced_problems(nb::module_ &m)
       "its stiffness alone.");
    m.def(
       "can_lock", [](const Self &problem) { return can_lock(problem); }, arg("problem"),
-      "Can the contact of a problem lock itself with the friction it has?");
+      "Can the contact of a problem lock itself with its present friction?");
 }
 
 } // namespace cattaneo::python

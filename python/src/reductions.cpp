@@ -122,7 +122,8 @@ void bind_reductions(nb::module_ &m)
             gaps_to_plane(surface, vector(point, "point", 3), vector(normal, "normal", 3)));
       },
       arg("surface"), arg("point"), arg("normal"),
-      "How far a plane is from each node of a surface, along the node's normal.\n\nsurface: of "
+      "Distance of a plane from each node of a surface, along the node's normal.\n\nsurface: "
+      "of "
       "a body. point: of the plane. normal: of any length and sense.");
    m.def(
       "gaps_to_sphere",
@@ -132,7 +133,7 @@ void bind_reductions(nb::module_ &m)
             gaps_to_sphere(surface, vector(centre, "centre", 3), finite(radius, "radius")));
       },
       arg("surface"), arg("centre"), arg("radius"),
-      "How far a sphere is from each node of a surface, along the node's normal.\n\nsurface: "
+      "Distance of a sphere from each node of a surface, along the node's normal.\n\nsurface: "
       "of "
       "a body. centre: of the sphere. radius: negative for a hollow.");
 
@@ -160,7 +161,7 @@ void bind_reductions(nb::module_ &m)
          arg("name"), arg("first"), arg("second") = nb::none(), nb::kw_only(),
          arg("slave") = "coarser", arg("gap") = nb::none(), arg("most_overlap") = 0.1,
          arg("tied") = false, arg("pairing") = nb::none(),
-         "name: its name in tables and sentences.\nfirst, second: (number of the body, its "
+         "name: its name in tables and messages.\nfirst, second: (number of the body, its "
          "line); without second: a rigid obstacle; for a half-plane the number alone.\nslave: "
          "the side that carries the nodes: 'coarser', 'finer', 'first' or 'second'.\ngap: a "
          "function of (x, y) or a number, instead of the gap of the geometry.\nmost_overlap: "
@@ -182,7 +183,7 @@ void bind_reductions(nb::module_ &m)
                      called(self.second) + ">";
            });
 
-   nb::class_<InterfaceReport>(m, "InterfaceReport", "What an interface came to.")
+   nb::class_<InterfaceReport>(m, "InterfaceReport", "The data of an interface in a reduction.")
       .def_ro("name", &InterfaceReport::name)
       .def_prop_ro(
          "bodies",
@@ -261,9 +262,8 @@ void bind_reductions(nb::module_ &m)
                body, state.q, state.p, self.tied_forces(state.v, state.w, state.multipliers)));
          },
          arg("body"), arg("state"),
-         "(nodes, 2), in space (nodes, 3): forces along x, y and z that contact and ties put "
-         "on "
-         "the nodes of a body's contact line or surface, in its order.\n\nbody: its number, "
+         "(nodes, 2), in space (nodes, 3): forces along x, y and z of contact and ties on the "
+         "nodes of a body's contact line or surface, in its order.\n\nbody: its number, "
          "from "
          "0. state: of `problem`.")
       .def(
@@ -274,11 +274,11 @@ void bind_reductions(nb::module_ &m)
             return geometry_warnings(self, state.p);
          },
          arg("state"),
-         "Warnings about geometry that affects this state, as sentences. They are about "
-         "normals of both bodies that differ, at a node that bears, by an angle that is not "
-         "small compared with friction. Others are about elements that differ although nodes "
-         "are paired, ends that are taken for planes of symmetry, and nodes that supports hold "
-         "askew. Empty if there are none.")
+         "Warnings about geometry that affects this state, as sentences. They are about nodes "
+         "in contact at which the normals of both bodies differ by an angle that is not small "
+         "compared with friction, and about elements that differ although nodes are paired. "
+         "Others are about ends that are taken for planes of symmetry, and nodes that supports "
+         "hold obliquely. Empty if there are none.")
       .def(
          "add_obstacle_motion",
          [](Self &self, const std::string &name, const Place &ux, const Place &uy) {

@@ -125,11 +125,11 @@ void bind_trace(nb::module_ &m)
 {
    nb::class_<Tie>(m, "Tie",
                    "A node that meets the laws of two states at the end of an increment. "
-                   "Derivatives there are one-sided, those of `taken`.")
+                   "Derivatives there are one-sided, and belong to the state `taken`.")
       .def_ro("state", &Tie::state, "of the trace")
       .def_ro("node", &Tie::node)
-      .def_ro("taken", &Tie::taken, "that the trace has")
-      .def_ro("other", &Tie::other, "that obeys the laws as well")
+      .def_ro("taken", &Tie::taken, "state that the trace has")
+      .def_ro("other", &Tie::other, "other state that obeys the laws as well")
       .def("__repr__",
            [](const Tie &self)
            {
@@ -165,10 +165,12 @@ void bind_trace(nb::module_ &m)
          nb::sig("def states(self) -> list[cattaneo._core.ContactState]"),
          "the first is the one at the start")
       .def_prop_ro("point", each(&TracedState::point),
-                   "of the history, after which each state lies")
-      .def_prop_ro("share", each(&TracedState::share), "of the way to the next point, 0 to 1")
-      .def_prop_ro("event", each(&TracedState::event),
-                   "the node whose change of state decides the share; -1: the history does")
+                   "number of the point of the history after which each state lies, from 0")
+      .def_prop_ro("share", each(&TracedState::share),
+                   "share of the way to the next point, 0 to 1")
+      .def_prop_ro(
+         "event", each(&TracedState::event),
+         "node whose change of state determines the share; -1: the history determines it")
       .def_prop_ro(
          "report",
          [](const Self &self)
@@ -237,7 +239,9 @@ void bind_trace(nb::module_ &m)
       },
       arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
       arg("settings") = MarchSettings(), arg("progress") = false, arg("stop") = nb::none(),
-      arg("members"), "march(), keeping all its states.");
+      arg("members"),
+      "Like march(), but keeps all states. A state at the start must be given, or the contact "
+      "is at rest.");
    m.def(
       "trace_wear",
       [](const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
@@ -261,8 +265,8 @@ void bind_trace(nb::module_ &m)
       arg("problem"), arg("law"), arg("history"), arg("cycles"), arg("state") = nb::none(),
       nb::kw_only(), arg("settings") = WearSettings(), arg("progress") = false,
       arg("stop") = nb::none(), arg("members"),
-      "wear.wear() with every cycle marched, keeping the states of all increments; times go on "
-      "from cycle to cycle.");
+      "Like wear.wear() with every cycle marched, but keeps the states of all increments. "
+      "Times increase from cycle to cycle.");
    m.def(
       "ties",
       [](const ReducedProblem &problem, const Self &trace, double tolerance)
@@ -364,7 +368,7 @@ void bind_responses(nb::module_ &m)
             return node ? (*self).dissipation(from, to, *node) : (*self).dissipation(from, to);
          },
          arg("from_"), arg("to"), arg("node") = nb::none(),
-         "Energy that friction takes between two states, by all nodes or one.")
+         "Energy lost by friction between two states, at all nodes or at one.")
       .def(
          "worn_depth",
          [](const Self &self, std::size_t from, std::size_t to, Index node)
@@ -375,11 +379,12 @@ void bind_responses(nb::module_ &m)
          "worn_volume",
          [](const Self &self, std::size_t from, std::size_t to)
          { return (*self).worn_volume(from, to); },
-         arg("from_"), arg("to"), "Volume that all nodes lose.")
+         arg("from_"), arg("to"),
+         "Volume worn off at all nodes between two states of trace_wear().")
       .def("slip", of_component(&Responses::slip), arg("state"), arg("node"),
            arg("component") = 0)
       .def("opening", of_node(&Responses::opening), arg("state"), arg("node"),
-           "w: without the gap")
+           "w of a node, without the gap")
       .def("shear", of_component(&Responses::shear), arg("state"), arg("node"),
            arg("component") = 0, "q of the node")
       .def("normal_force", of_node(&Responses::normal_force), arg("state"), arg("node"),
@@ -389,18 +394,19 @@ void bind_responses(nb::module_ &m)
       .def(
          "peak_pressure",
          [](const Self &self, std::size_t state) { return (*self).peak_pressure(state); },
-         arg("state"), "of the node where it is largest")
+         arg("state"), "largest pressure of all nodes (of several equal ones the first)")
       .def(
          "shear_resultant",
          [arms](const Self &self, std::size_t state, Numbers arm, int component)
          { return (*self).shear_resultant(state, arms(arm), component); },
          arg("state"), arg("arm") = nb::none(), arg("component") = 0,
-         "sum of q, times a lever arm of each node")
+         "sum of q times the lever arm of each node, (n,); without arms the tangential force")
       .def(
          "normal_resultant",
          [arms](const Self &self, std::size_t state, Numbers arm)
          { return (*self).normal_resultant(state, arms(arm)); },
-         arg("state"), arg("arm") = nb::none(), "sum of p, times a lever arm of each node")
+         arg("state"), arg("arm") = nb::none(),
+         "sum of p times the lever arm of each node, (n,); without arms the normal force")
       .def("multiplier", of_pattern(&Responses::multiplier), arg("state"), arg("pattern"))
       .def("conjugate", of_pattern(&Responses::conjugate), arg("state"), arg("pattern"),
            "the displacement of a force, or the reaction of a displacement")
@@ -427,13 +433,14 @@ void bind_parameters(nb::module_ &m)
             new (self) StiffnessChange(std::move(change));
          },
          arg("K"), arg("loads") = nb::none(), arg("H") = nb::none(),
-         "K: of ReducedProblem.K. loads: of the forces {q; p} of each pattern, a column each. "
-         "H: of ReducedProblem.H.")
+         "K: change of ReducedProblem.K. loads: change of the forces {q; p} of each pattern, a "
+         "column each. H: change of ReducedProblem.H.")
       .def_prop_ro("K", viewed(&StiffnessChange::K))
       .def_prop_ro("loads", viewed(&StiffnessChange::loads))
       .def_prop_ro("H", viewed(&StiffnessChange::H));
    m.def("stiffness_scale", &stiffness_scale, arg("problem"),
-         "All stiffnesses by the same factor, per unit of it.");
+         "The change if all stiffnesses of a problem are multiplied by the same factor, per "
+         "unit of this factor.");
 
    using Self = Parameters;
    nb::class_<Self>(m, "Parameters",
@@ -457,8 +464,9 @@ void bind_parameters(nb::module_ &m)
          },
          arg("friction") = nb::none(), arg("gap") = nb::none(), arg("multipliers") = nb::none(),
          arg("stiffness") = nb::none(), arg("wear") = nb::none(),
-         "friction, gap: of each node. multipliers: of LoadHistory, (loads, points). "
-         "stiffness: of each StiffnessChange. wear: of Archard's k of each node.")
+         "friction, gap: (n,), of each node. multipliers: (loads, points), of LoadHistory. "
+         "stiffness: a number for each StiffnessChange. wear: (n,), of Archard's k of each "
+         "node.")
       .def_prop_ro("friction", viewed(&Self::friction), "of each node")
       .def_prop_ro("gap", viewed(&Self::gap), "of each node")
       .def_prop_ro("multipliers", viewed(&Self::multipliers), "(loads, points)")
@@ -520,8 +528,8 @@ void bind_sensitivity(nb::module_ &m)
             new (self) Self(std::move(made));
          },
          arg("problem"), arg("trace"), arg("stiffness") = nb::tuple(),
-         "problem: as it was marched. stiffness: changes of the stiffness by which derivatives "
-         "are wanted too.")
+         "problem: as it was marched. stiffness: changes of the stiffness for which "
+         "derivatives are computed too.")
       .def(
          "gradient",
          [](Self &self, const Response &response)
@@ -531,7 +539,8 @@ void bind_sensitivity(nb::module_ &m)
                                 { return all.gradient(of, monitor); });
          },
          arg("response"),
-         "Derivatives of one response by all parameters, back through the march. If they are "
+         "Derivatives of one response by all parameters, computed backwards through the march. "
+         "If they are "
          "not known there is a warning (OutcomeWarning). Ctrl-C ends it.")
       .def(
          "along",
@@ -542,13 +551,14 @@ void bind_sensitivity(nb::module_ &m)
                                 { return all.along(of, monitor); });
          },
          arg("change"),
-         "Derivatives of all states along one change of parameters, forward through the march. "
+         "Derivatives of all states along one change of parameters, computed forwards through "
+         "the march. "
          "If they are not known there is a warning (OutcomeWarning). Ctrl-C ends it.")
       .def(
          "factorisations",
          [](Self &self)
          { return self.work([](Sensitivity &all) { return all.factorisations(); }); },
-         "Dense factorisations so far.")
+         "Number of dense factorisations so far.")
       .def(
          "updates",
          [](Self &self) { return self.work([](Sensitivity &all) { return all.updates(); }); },

@@ -70,7 +70,7 @@ void bind_cycle(nb::module_ &m)
          [](const ReducedProblem &problem, const NamedLoads &constant,
             const std::vector<NamedLoads> &vertices)
          {
-            require(!vertices.empty(), "vertices has no entries, must have one at least");
+            require(!vertices.empty(), "vertices has no entries, must have at least one");
             return LoadCycle::through(problem, constant, vertices);
          },
          arg("problem"), arg("constant"), arg("vertices"),
@@ -88,12 +88,15 @@ void bind_cycle(nb::module_ &m)
                                 finite(reversal, "reversal"));
       },
       arg("problem"), arg("held"), arg("load"), arg("cycled"), arg("reversal"),
-      "One load held, another cycled between factor and reversal × factor.");
+      "A cycle with one load held at a constant multiplier, and another cycled between λ and "
+      "reversal × λ, -1 <= reversal <= 1. λ is the load factor.");
 }
 
 void bind_limits(nb::module_ &m)
 {
-   nb::class_<LimitProblem>(m, "LimitProblem", "A contact and its load cycle.")
+   nb::class_<LimitProblem>(m, "LimitProblem",
+                            "A contact and its load cycle, the input of limits. The problem "
+                            "must have no gap (see absorb_gap()).")
       .def_prop_ro(
          "reduced", [](LimitProblem &self) -> ReducedProblem & { return self.reduced; },
          nb::rv_policy::reference_internal)
@@ -105,7 +108,7 @@ void bind_limits(nb::module_ &m)
             cycle.validate(self.reduced);
             self.cycle = cycle;
          },
-         nb::for_setter(arg("cycle")), "may be changed for a sweep");
+         nb::for_setter(arg("cycle")), "the load cycle; it may be replaced for a sweep");
    m.def(
       "limit_problem",
       [](const ReducedProblem &problem, const LoadCycle &cycle)
@@ -115,7 +118,8 @@ void bind_limits(nb::module_ &m)
                          { return limit_problem(std::move(of), std::move(loads)); });
       },
       arg("problem"), arg("cycle"),
-      "The expensive part of a limit. Compute it once for a sweep over friction or cycles.");
+      "Computes the residual forces of a problem, the expensive part of a limit. For a sweep "
+      "over friction or cycles make it once.");
 
    using Self = LimitReport;
    nb::class_<Self>(m, "LimitReport", "A shakedown limit between proven bounds.")
@@ -138,19 +142,18 @@ void bind_limits(nb::module_ &m)
          "mechanism_opening", [](const Self &self) { return array(self.mechanism.opening); },
          "(n, vertices)")
       .def_ro("coupling", &Self::coupling, "degree of coupling, 0 to 1")
-      .def_ro(
-         "coupled", &Self::coupled,
-         "slip changes the pressures: some start shakes down below the limit, and not every "
-         "start has to")
+      .def_ro("coupled", &Self::coupled,
+              "does slip change pressures? If so, some start shakes down below the limit, but "
+              "not every start has to")
       .def_ro("every_start", &Self::every_start,
               "lower limit λ1 of a load, below which every start shakes down, or a proven "
               "lower bound of it; nan if nothing is known")
-      .def_ro("starts", &Self::starts, "which starts shake down, in one sentence")
+      .def_ro("starts", &Self::starts, "one sentence on the starts that shake down")
       .def_prop_ro(
          "assumption", [](const Self &) { return std::string(limit_assumption); },
-         "what the bounds assume")
+         "the assumption of the bounds")
       .def_ro("of_the_mesh", &Self::of_the_mesh,
-              "why the limit is one of this mesh only, '' if nothing shows that it is")
+              "reason why the limit belongs to this mesh only, '' if there is none")
       .def_prop_ro("statement", &Self::statement, nb::sig("def statement(self) -> list[str]"),
                    "three sentences: the assumption, which starts shake down, and whether the "
                    "mesh decides the limit")
@@ -194,7 +197,8 @@ void bind_limits(nb::module_ &m)
       },
       arg("problem"), nb::kw_only(), arg("settings") = told, arg("start") = nb::none(),
       arg("progress") = false, arg("stop") = nb::none(), arg("members"),
-      "The largest load factor under which some slip keeps all nodes stuck and closed, for the "
+      "The largest load factor at which some residual slip keeps all nodes stuck and closed, "
+      "for the "
       "friction of the problem.\n"
       "settings: without them λ1 is found too, below which every start shakes down in a "
       "coupled "
@@ -215,11 +219,12 @@ void bind_limits(nb::module_ &m)
       arg("problem"), arg("load_factor"), nb::kw_only(), arg("settings") = settings,
       arg("start") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
       arg("members"),
-      "The smallest coefficient, the same at all nodes, at which the contact shakes down.");
+      "The smallest coefficient of friction, the same at all nodes, with which the contact can "
+      "shake down under a load factor. The problem's own friction is not used.");
 
    nb::class_<LowerLimitReport>(
       m, "LowerLimitReport",
-      "The limit below which every start shakes down, as far as it is known.")
+      "The limit λ1 below which every start shakes down, or a proven lower bound of it.")
       .def_prop_ro(
          "kind",
          [](const LowerLimitReport &self)
@@ -245,8 +250,8 @@ void bind_limits(nb::module_ &m)
       },
       arg("problem"), arg("upper"), nb::kw_only(), arg("apart") = nb::none(),
       arg("settings") = settings, arg("members"),
-      "upper: the report of load_limit. apart: nodes without which slip cannot go on for ever "
-      "below the value, if the contact stays closed.");
+      "upper: the report of load_limit. apart: nodes that are set apart: in a contact that "
+      "stays closed, slip that goes on for ever below the value includes slip at one of them.");
 }
 
 void bind_closed(nb::module_ &m)
@@ -256,7 +261,7 @@ void bind_closed(nb::module_ &m)
                              "others stay open.")
       .def_prop_ro(
          "reduced", [](ClosedContact &self) -> ReducedProblem & { return self.reduced; },
-         nb::rv_policy::reference_internal, "of the closed nodes")
+         nb::rv_policy::reference_internal, "reduced problem of the closed nodes")
       .def_prop_ro("closed",
                    [](const ClosedContact &self) { return array_of_indices(self.closed); })
       .def_prop_ro("open",
@@ -268,7 +273,9 @@ void bind_closed(nb::module_ &m)
             return array(self.open_gaps(vector(slip, "slip", self.reduced.slips()),
                                         self.reduced.multipliers(loads)));
          },
-         arg("slip"), arg("loads"), "of the open nodes: negative where the assumption fails");
+         arg("slip"), arg("loads"),
+         "w + gap of the open nodes for a slip of the closed nodes and multipliers of the "
+         "loads; negative where the assumption fails");
    m.def(
       "closed_contact",
       [](const ReducedProblem &problem, Numbers nodes)
@@ -288,12 +295,13 @@ void bind_closed(nb::module_ &m)
          if (result.march.status != FrictionStatus::converged)
          {
             warn(std::string("stay_closed: the march ended with ") + name(result.march.status) +
-                 ", its nodes are not to be trusted: " + result.march.message);
+                 ", so that its nodes are not reliable: " + result.march.message);
          }
          return array_of_indices(result.nodes);
       },
       arg("problem"), arg("cycle"), arg("load_factor"), arg("cycles"),
-      "Nodes that are closed throughout some marched cycles.");
+      "Marches some cycles at a load factor, and returns the numbers of the nodes that are "
+      "closed throughout.");
 }
 
 void bind_estimates(nb::module_ &m)
@@ -322,7 +330,7 @@ void bind_estimates(nb::module_ &m)
    m.def(
       "degree_of_coupling",
       [](const ReducedProblem &problem) { return degree_of_coupling(problem); }, arg("problem"),
-      "0 to 1; for two half-planes Dundurs' constant.");
+      "Degree of coupling of slip and pressure, 0 to 1; for two half-planes |β| of Dundurs.");
 
    nb::class_<TransientReport>(m, "TransientReport",
                                "A march of a load cycle from a given slip.")
@@ -340,9 +348,10 @@ void bind_estimates(nb::module_ &m)
          "of each cycle, until steady")
       .def_ro("decay", &TransientReport::decay)
       .def_ro("elastic_slip", &TransientReport::elastic_slip,
-              "largest slip of the stuck contact if it is let go, the scale of cycle_slip")
+              "largest slip if the stuck contact loses all friction, the scale of cycle_slip")
       .def_prop_ro("cycle_slip", viewed(&TransientReport::cycle_slip),
-                   "slip path in the last cycle of each node that bears at some time of it")
+                   "(n,), length of the slip path in the last cycle of each node that is in "
+                   "contact at some time of it")
       .def_prop_ro(
          "opened", [](const TransientReport &self) { return array_of_indices(self.opened); },
          "nodes that are open at some time of the last cycle")
@@ -384,10 +393,10 @@ void bind_estimates(nb::module_ &m)
       arg("problem"), arg("load_factor"), arg("start") = 0.0, arg("cycles") = nb::none(),
       arg("limit") = nb::none(), nb::kw_only(), arg("settings") = TransientSettings(),
       arg("members"),
-      "Marches the cycle from the slip `start`: does it shake down, and how fast? limit: the "
-      "report of load_limit. Above its upper bound, if that is proven, the verdict is never "
-      "'shaken down': a slip that seems to have ended 'moves only at nodes that open' if nodes "
-      "open, else it is 'still slipping'.");
+      "Marches the cycle at a load factor from the slip `start`, (c n,), to see whether the "
+      "contact shakes down. limit: the report of load_limit(). Above its proven upper bound "
+      "the verdict is never 'shaken down': if slip seems to have ended, it is 'moves only at "
+      "nodes that open' or, without such nodes, 'still slipping'.");
 }
 
 } // namespace

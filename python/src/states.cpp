@@ -31,8 +31,8 @@ void bind_states(nb::module_ &m)
 
    using Self = ContactState;
    nb::class_<Self> state(m, "ContactState",
-                          "The state of a frictional contact, on which alone its future "
-                          "depends. Arrays are views that cannot be written to.");
+                          "The state of a frictional contact: all data on which its future "
+                          "depends. Arrays are read-only views.");
    bind_validate(state);
    bind_copies(state);
    state

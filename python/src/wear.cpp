@@ -60,21 +60,24 @@ void bind_law(nb::module_ &m)
             new (self) Self(std::move(law));
          },
          arg("coefficient"), arg("threshold") = nb::none(), arg("of_energy") = false,
-         "coefficient: k of each node, in 1/pressure. threshold: the pressure p_th below which "
-         "nothing wears, of each node or one number. of_energy: k is of the energy that "
-         "friction takes per area.")
+         "coefficient: k of each node, (n,), at least 0, in 1/pressure. threshold: the "
+         "pressure p_th below which nothing wears, (n,) or one number, at least 0. of_energy: "
+         "k is the wear per energy that friction loses per area.\nInputError for negative "
+         "values or other sizes.")
       .def_static(
          "uniform",
          [](const ReducedProblem &problem, double coefficient)
          { return Self::uniform(problem, finite(coefficient, "coefficient")); },
-         arg("problem"), arg("coefficient"), "The same k at every node, no threshold.")
+         arg("problem"), arg("coefficient"),
+         "The same k, in 1/pressure, at every node of a problem, without a threshold.")
       .def(
          "set",
          [](Self &self, const ReducedProblem &problem, const std::string &interface,
             double coefficient)
          { self.set(problem, interface, finite(coefficient, "coefficient")); },
          arg("problem"), arg("interface"), arg("coefficient"),
-         "Another k at the nodes of an interface.")
+         "Sets k, in 1/pressure, at the nodes of an interface. InputError if the problem has "
+         "none with this name.")
       .def_prop_ro("coefficient", viewed(&Self::coefficient), "k of each node")
       .def_prop_ro("threshold", viewed(&Self::threshold), "no entries: none")
       .def_ro("of_energy", &Self::of_energy)
@@ -104,22 +107,23 @@ void bind_law(nb::module_ &m)
          return array(worn_depth(problem, law, before, after));
       },
       arg("problem"), arg("law"), arg("before"), arg("after"),
-      "Depth that each node loses over an increment between two states.");
+      "Depth that each node loses over the increment from state `before` to state `after`, "
+      "(n,), at least 0, in units of length.");
    m.def(
       "worn_volume",
       [](const ReducedProblem &problem, Numbers depth)
       { return worn_volume(problem, vector(depth, "depth", problem.nodes())); },
       arg("problem"), arg("depth"),
-      "Volume of a depth of each node, per unit thickness; of the full circumference in "
-      "axisymmetry.");
+      "Volume of the depths of all nodes, (n,), per unit thickness; in axisymmetry of the full "
+      "circumference. Needs weights.");
 }
 
 void bind_state(nb::module_ &m)
 {
    using Self = WearState;
    nb::class_<Self> state(m, "WearState",
-                          "The state of a wearing contact: all that its future depends on. "
-                          "Arrays are views that cannot be written to.");
+                          "The state of a wearing contact: all data on which its future "
+                          "depends. Arrays are read-only views.");
    bind_validate(state);
    bind_copies(state);
    state
@@ -135,17 +139,20 @@ void bind_state(nb::module_ &m)
             new (self) Self(std::move(state));
          },
          arg("contact"), arg("depth"), arg("dissipation") = 0.0, arg("cycles") = 0.0,
-         "depth: worn off so far, and dissipation: energy that friction took so far, of each "
-         "node or one number.")
-      .def_static("virgin", &Self::virgin, arg("problem"), "Unworn, before any load.")
+         "contact: a ContactState of the worn contact. depth: worn off so far, and "
+         "dissipation: energy lost by friction so far, both (n,) or one number, at least 0. "
+         "cycles: number of cycles so far.")
+      .def_static("virgin", &Self::virgin, arg("problem"),
+                  "The state of the unworn contact of a problem, before any load.")
       .def_prop_ro(
          "contact", [](Self &self) -> ContactState & { return self.contact; },
          nb::rv_policy::reference_internal,
          "with the slip and the forces of the worn contact, whose gap is problem.gap + depth")
-      .def_prop_ro("depth", viewed(&Self::depth), "worn off; the gap is problem.gap + depth")
+      .def_prop_ro("depth", viewed(&Self::depth),
+                   "(n,), depth worn off; the gap is problem.gap + depth")
       .def_prop_ro("dissipation", viewed(&Self::dissipation),
-                   "energy that friction took at each node so far")
-      .def_ro("cycles", &Self::cycles, "so far, marched or jumped over")
+                   "(n,), energy lost by friction at each node so far")
+      .def_ro("cycles", &Self::cycles, "number of cycles so far, marched or jumped over")
       .def("__repr__",
            [](const Self &self)
            {
@@ -196,14 +203,13 @@ void bind_report(nb::module_ &m)
 {
    nb::class_<WearRecord>(m, "WearRecord",
                           "Record of a cycle that was marched, or of a jump over several.")
-      .def_ro("cycles", &WearRecord::cycles, "so far, at its end")
-      .def_ro("covered", &WearRecord::covered, "how many it covers")
-      .def_ro("volume", &WearRecord::volume, "worn off so far")
+      .def_ro("cycles", &WearRecord::cycles, "number of cycles so far, at its end")
+      .def_ro("covered", &WearRecord::covered, "number of cycles that the record covers")
+      .def_ro("volume", &WearRecord::volume, "volume worn off so far, per unit thickness")
       .def_ro("depth", &WearRecord::depth, "largest so far")
-      .def_ro("dissipation", &WearRecord::dissipation, "energy that friction took so far")
+      .def_ro("dissipation", &WearRecord::dissipation, "energy lost by friction so far")
       .def_ro("loss", &WearRecord::loss,
-              "energy that friction takes in the last cycle; after a jump, in a cycle of the "
-              "worn contact")
+              "energy lost in the last cycle; after a jump, in a cycle of the worn contact")
       .def_ro("error", &WearRecord::error,
               "estimate of the largest error of depth so far, by all jumps")
       .def("__repr__",
@@ -238,14 +244,16 @@ void bind_report(nb::module_ &m)
          "state", [](Self &self) -> WearState & { return self.state; },
          nb::rv_policy::reference_internal, "at the end")
       .def_prop_ro("cycles", of_records(&WearRecord::cycles), "so far")
-      .def_prop_ro("covered", of_records(&WearRecord::covered), "cycles of each record")
-      .def_prop_ro("volume", of_records(&WearRecord::volume), "worn off so far")
+      .def_prop_ro("covered", of_records(&WearRecord::covered),
+                   "number of cycles that each record covers")
+      .def_prop_ro("volume", of_records(&WearRecord::volume),
+                   "volume worn off so far, per unit thickness")
       .def_prop_ro("depth", of_records(&WearRecord::depth), "largest so far")
       .def_prop_ro("dissipation", of_records(&WearRecord::dissipation),
-                   "energy that friction took so far")
+                   "energy lost by friction so far")
       .def_prop_ro("loss", of_records(&WearRecord::loss),
-                   "energy that friction takes in the last cycle of each record; after a jump, "
-                   "in a cycle of the worn contact")
+                   "energy lost in the last cycle of each record; after a jump, in a cycle of "
+                   "the worn contact")
       .def_prop_ro("errors", of_records(&WearRecord::error),
                    "estimates of the largest error of depth so far, by all jumps")
       .def_prop_ro(
@@ -255,7 +263,8 @@ void bind_report(nb::module_ &m)
             return march_report(nb::cast<const ReducedProblem &>(self.problem),
                                 self.report.last, self.state.contact);
          },
-         nb::sig("def last(self) -> cattaneo._core.MarchReport"), "of the last cycle marched")
+         nb::sig("def last(self) -> cattaneo._core.MarchReport"),
+         "report of the last cycle that was marched")
       .def_prop_ro(
          "marched", copied(&Self::report, &WearReport::marched),
          "cycles that were marched, also those that are marched only to see where a jump leads")
@@ -265,15 +274,15 @@ void bind_report(nb::module_ &m)
          "estimate of the largest error of depth at the end by jumps, including how errors of "
          "early jumps have grown; infinite if the wear is too unstable for an estimate")
       .def_prop_ro("reached", copied(&Self::report, &WearReport::reached),
-                   "True if depths are estimated to be right to the tolerance")
+                   "True if the estimated error of depths is within the tolerance")
       .def_prop_ro("remark", copied(&Self::report, &WearReport::remark),
                    "the text of the warning if errors of jumps have grown, or if no "
                    "equilibrium was found at the worn gap; else empty")
       .def_prop_ro("explicit_limit", copied(&Self::report, &WearReport::explicit_limit),
-                   "most cycles that may share one explicit update of the gap")
+                   "largest number of cycles that may share one explicit update of the gap")
       .def_prop_ro("implicit_cycles", copied(&Self::report, &WearReport::implicit_cycles))
       .def_prop_ro("steady_cycle", copied(&Self::report, &WearReport::steady_cycle),
-                   "first of the cycles that wear alike; 0: none")
+                   "first of the cycles with equal wear; 0: none")
       .def_prop_ro("final_cycle", copied(&Self::report, &WearReport::final_cycle),
                    "cycle at which wear ended; 0: it has not ended")
       .def_prop_ro("counters", copied(&Self::report, &WearReport::counters))
@@ -320,15 +329,16 @@ void bind_wear_march(nb::module_ &m)
       arg("state") = nb::none(), nb::kw_only(), arg("settings") = WearSettings(),
       arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
       arg("members"),
-      "Wears a contact: marches the opening part of a history, then its cycle until `cycles` "
-      "are over, and takes off what each cycle wears. `state` stays as it is.\n\n"
-      "history: with a cycle (cycle_start); how often it repeats is not asked.\n"
+      "Wears a contact: marches the part of a history before its cycle, then the cycle until "
+      "`cycles` are reached, and adds the wear of each cycle to the gap. `state` is not "
+      "changed.\n\n"
+      "history: with a cycle (cycle_start); its number of repetitions is ignored.\n"
       "settings: with a tolerance cycles are jumped over. The same increments and stepping are "
       "meant: an unstable way ends elsewhere with others. Where the tolerance was not reached "
       "`reached` is False; of that and of any other remark a warning says so.\n"
       "observer: is called with WearState and WearRecord after every cycle marched and every "
       "jump, of jumps when their error is known.\n\n"
-      "Ctrl-C, `stop` and `progress` are asked between cycles. An outcome other than "
+      "Ctrl-C, `stop` and `progress` are checked between cycles. An outcome other than "
       "'converged' is warned of (OutcomeWarning).");
 
    using Self = Worn;
@@ -336,25 +346,27 @@ void bind_wear_march(nb::module_ &m)
                         "A state in which a cycle wears off nothing more. A march may end in "
                         "another one, with wear at nodes that stick here.");
    bind_outcome(end, [](const Self &self) -> const WornOut & { return self.end; });
-   end.def_prop_ro("depth", copied(&Self::end, &WornOut::depth), "worn off at each node")
+   end.def_prop_ro("depth", copied(&Self::end, &WornOut::depth),
+                   "(n,), depth worn off at each node")
       .def_prop_ro("overlap", copied(&Self::end, &WornOut::overlap),
-                   "overlap that the unworn surfaces would have; crosses zero where wear ends")
+                   "(n,), overlap that the unworn surfaces would have; it crosses zero where "
+                   "the worn zone ends")
       .def_prop_ro(
          "stick", [](const Self &self) { return truths(self.end.stick); },
          "nodes that never slip in a cycle: they alone carry the loads")
       .def_prop_ro(
          "contact", [](Self &self) -> ContactState & { return self.end.contact; },
-         nb::rv_policy::reference_internal, "at the end of a cycle")
+         nb::rv_policy::reference_internal, "state at the end of a cycle of the worn contact")
       .def_prop_ro(
          "unworn", [](Self &self) -> ContactState & { return self.end.unworn; },
-         nb::rv_policy::reference_internal, "at the end of the unworn cycle")
+         nb::rv_policy::reference_internal, "state at the end of the unworn cycle")
       .def_prop_ro(
          "slip_range", [](const Self &self) { return array(self.slip_range); },
-         "of each node over the unworn cycle: largest - smallest slip")
+         "(n,), largest less smallest slip of each node over the unworn cycle")
       .def_prop_ro("loss", copied(&Self::end, &WornOut::loss),
-                   "energy that a cycle takes, over that of the unworn contact")
+                   "energy loss of a cycle, over that of the unworn contact")
       .def_prop_ro("searches", copied(&Self::end, &WornOut::searches),
-                   "sets of sticking nodes that were tried")
+                   "number of sets of sticking nodes that were tried")
       .def("__repr__",
            [](const Self &self)
            {
@@ -398,9 +410,9 @@ void bind_wear_march(nb::module_ &m)
       arg("settings") = MarchSettings(), arg("progress") = false, arg("stop") = nb::none(),
       arg("members"),
       "A fully worn state of partial slip, without the cycles that lead there. Slipping nodes "
-      "carry nothing and sticking nodes keep their place. The depth is the largest overlap at "
+      "carry no force and sticking nodes keep their place. The depth is the largest overlap at "
       "any point of the cycle.\n\nhistory: with a cycle. contact: a state of the unworn "
-      "problem before the opening part or at the start of the cycle; rest if None. The result "
+      "problem at the start of the history or of its cycle; None: before any load. The result "
       "holds for any law of wear without a threshold.\n\nThis is one state in which wear ends. "
       "The end of a march may be another, with wear at nodes that stick here. If A = C, B = 0 "
       "(half-planes of one material) and pressures do not vary in the cycle both are the "

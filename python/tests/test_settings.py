@@ -143,7 +143,7 @@ def test_settings_are_heard():
     assert len(cattaneo.march(problem, points, settings=settings).time) == 6
     settings.increments_of_piece = [2, 5]
     report = cattaneo.march(problem, points, settings=settings)
-    assert len(report.time) == 7 and np.isnan(report.loss_error) and "was not asked for" in report.loss_error_by
+    assert len(report.time) == 7 and np.isnan(report.loss_error) and "was not requested" in report.loss_error_by
     settings.loss_error = True
     assert cattaneo.march(problem, points, settings=settings).loss_error > 0
     settings.keep_increments = False
