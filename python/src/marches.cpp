@@ -181,7 +181,7 @@ March march_by(const Marcher &marcher, const ReducedProblem &problem, const Hist
    if (march.report.status == FrictionStatus::converged &&
        march.report.counters.increments == 0)
    {
-      warn("march: nothing was marched, because the state has the time  " +
+      warn("march: nothing was marched, because the state has the time " +
            exact_text(march.report.time) + ", at the end of the history or beyond it");
    }
    return march;

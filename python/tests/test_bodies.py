@@ -543,7 +543,7 @@ def test_a_bolt_that_is_tightened():
     history = cattaneo.LoadHistory.through(joined.problem, points)
     again = joined.march(history, report.states[2])
     assert again.state.v == pytest.approx(report.state.v, abs=1e-10)
-    with pytest.warns(cattaneo.OutcomeWarning, match="would push"):
+    with pytest.warns(cattaneo.OutcomeWarning, match="would be compressed"):
         pushed = joined.march([{}, {"bolt": 2}, {"P": 5}])
     assert pushed.status == "stopped"
     number = [load.name for load in joined.problem.patterns].index("P")
