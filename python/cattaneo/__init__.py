@@ -65,6 +65,8 @@ from ._core import (
     condense as condense,
     conjugates as conjugates,
     critical_friction as critical_friction,
+    gaps_to_cylinder as gaps_to_cylinder,
+    gaps_to_height as gaps_to_height,
     gaps_to_plane as gaps_to_plane,
     gaps_to_sphere as gaps_to_sphere,
     hold as hold,

@@ -230,7 +230,10 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
    if (!elements.is_none())
    {
       const std::vector<NodalStiffness::Nodes> all = element_list(elements, nodes - 1);
-      if (dimension == 3) { body.faces = outer_faces(all); }
+      if (dimension == 3)
+      {
+         body.faces = outer_faces(all, [&body](int node) { return body.place(node); });
+      }
       else { body.edges = outer_edges(all, body.places); }
    }
    if (!fixed.is_none())
@@ -355,10 +358,11 @@ void bind_stiffness(nb::module_ &m)
          "formulation: 'plane', or 'axisymmetric', where x is r and K is of the whole "
          "circumference.\n"
          "elements: (elements, 3, 4, 6, 7, 8 or 9) nodes, corners in order around it, then the "
-         "middles of the sides; a list of such arrays if there are several kinds. With them "
-         "outer edges are known, so that contact_line() takes nodes in any order. In space "
-         "(elements, 4, "
-         "5, 6 or 8) corners of tetrahedra, pyramids, wedges and hexahedra, for "
+         "middles of the sides; a list of such arrays if there are several kinds. They tell "
+         "outer edges, so that contact_line() takes nodes in any order. In space (elements, 4, "
+         "5, 6 or 8) corners of tetrahedra, pyramids, wedges and hexahedra, of order 2 with "
+         "the "
+         "middles after the corners in any order (10, 13, 14, 15, 18, 20 or 27), for "
          "contact_surface().\n"
          "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name. "
          "name: name of the body in messages.\n"
@@ -547,7 +551,9 @@ void bind_stiffness(nb::module_ &m)
          "The trace of a body in space.\n\n"
          "nodes: the name of a set, numbers of nodes, or a mask over `nodes`: all outer faces "
          "of elements whose nodes are among them. Or (faces, 3 or 4) nodes, the faces "
-         "themselves, where no elements are known.")
+         "themselves, where no elements are known; (faces, 6, 8 or 9) with the middles of "
+         "edges "
+         "and faces after the corners.")
       .def("__repr__", &brief);
 
    m.def(
@@ -690,10 +696,38 @@ void bind_lines(nb::module_ &m)
 void bind_surfaces(nb::module_ &m)
 {
    using Self = ContactSurface;
+   m.def(
+      "joined", [](const std::vector<Self> &surfaces) { return joined(surfaces); },
+      arg("surfaces"),
+      "The trace of a body in space with several interfaces, to be condensed to at "
+      "once.\n\nsurfaces: of contact_surface(); nodes and faces of all, each node once.");
    nb::class_<Self>(
       m, "ContactSurface",
-      "The trace of a body in space: its contact nodes and the faces between them.")
+      "The trace of a body in space: its contact nodes and the faces between them.\n\nOn faces "
+      "of "
+      "6 and 8 nodes displacements, gaps and forces of a problem are those of unknowns with "
+      "positive weights, corners N + 1/5 of the middles of adjacent edges, middles 3/5 N. "
+      "at_nodes() and forces_at_nodes() turn them into those of the nodes.")
       .def("__len__", &Self::size)
+      .def(
+         "at_nodes",
+         [](const Self &self, Numbers values)
+         { return array(self.at_nodes(matrix(values, "values", self.size(), -1))); },
+         arg("values"),
+         "values: (n, k) of the unknowns, displacements for instance; those of "
+         "the nodes.")
+      .def(
+         "of_nodes",
+         [](const Self &self, Numbers values)
+         { return array(self.of_nodes(matrix(values, "values", self.size(), -1))); },
+         arg("values"), "The inverse of at_nodes(). values: (n, k) of the nodes.")
+      .def(
+         "forces_at_nodes",
+         [](const Self &self, Numbers forces)
+         { return array(self.forces_at_nodes(matrix(forces, "forces", self.size(), -1))); },
+         arg("forces"),
+         "forces: (n, k) on the unknowns; those on the nodes that do the same "
+         "work.")
       .def_prop_ro(
          "positions", [](const Self &self) { return array(Eigen::MatrixXd(self.positions())); },
          "(n, 3)")
@@ -721,7 +755,7 @@ void bind_surfaces(nb::module_ &m)
          "(n, 3), into the body")
       .def_prop_ro(
          "weights", [](const Self &self) { return array(self.weights()); },
-         "consistent: they sum to the area")
+         "of the unknowns, consistent: they sum to the area")
       .def_prop_ro(
          "dofs",
          [](const Self &self)
@@ -743,7 +777,9 @@ void bind_surfaces(nb::module_ &m)
             for (const auto &face : self.faces) { all.emplace_back(face.begin(), face.end()); }
             return all;
          },
-         "numbers of the nodes of each face, three or four in their order around it")
+         "numbers of the nodes of each face: three or four corners in their order around it, "
+         "then "
+         "the middles of the edges and of the face, if it has them")
       .def("__repr__",
            [](const Self &self)
            {

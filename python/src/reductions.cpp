@@ -25,14 +25,22 @@ namespace
 {
 
 /// A number of a body alone is that of a half-plane, whose line is the other side's.
-using Side = std::variant<int, std::pair<int, ContactLine>>;
-/// A number, or a function of (x, y).
+using Side = std::variant<int, std::pair<int, ContactLine>, std::pair<int, ContactSurface>>;
+/// A number, or a function of (x, y), in space of (x, y, z).
 using Place = std::variant<double, nb::typed<nb::callable, double(double, double)>>;
 using Bodies = std::vector<CondensedBody>;
 
-ScalarField place_function(const Place &place, const std::string &what)
+ScalarField place_function(const Place &place, const std::string &what, bool in_space = false)
 {
    if (const auto *value = std::get_if<double>(&place)) { return finite(*value, what.c_str()); }
+   if (in_space)
+   {
+      return [function = std::get<1>(place), what](double x, double y, double z)
+      {
+         return number(function(x, y, z), what + "(" + exact_text(x) + ", " + exact_text(y) +
+                                             ", " + exact_text(z) + ")");
+      };
+   }
    return [function = std::get<1>(place), what](double x, double y)
    { return number(function(x, y), what + "(" + exact_text(x) + ", " + exact_text(y) + ")"); };
 }
@@ -40,9 +48,17 @@ ScalarField place_function(const Place &place, const std::string &what)
 InterfaceSide side(const Side &side, const char *what)
 {
    const int *alone = std::get_if<int>(&side);
-   const int body = alone ? *alone : std::get<1>(side).first;
+   const auto *on_line = std::get_if<1>(&side);
+   const auto *on_surface = std::get_if<2>(&side);
+   const int body = alone ? *alone : on_line ? on_line->first : on_surface->first;
    within(body, what, 0, 1 << 20);
-   return {body, alone ? ContactLine() : std::get<1>(side).second};
+   return {body, on_line ? on_line->second : ContactLine(),
+           on_surface ? on_surface->second : ContactSurface()};
+}
+
+bool in_space(const CondensedBody &body)
+{
+   return body.line.formulation == Formulation::space;
 }
 
 /// Two bodies whose nodes lie at the same places.
@@ -137,6 +153,26 @@ void bind_reductions(nb::module_ &m)
       "of "
       "a body. centre: of the sphere. radius: negative for a hollow.");
 
+   m.def(
+      "gaps_to_cylinder",
+      [](const ContactSurface &surface, Numbers point, Numbers axis, double radius)
+      {
+         return array(gaps_to_cylinder(surface, vector(point, "point", 3),
+                                       vector(axis, "axis", 3), finite(radius, "radius")));
+      },
+      arg("surface"), arg("point"), arg("axis"), arg("radius"),
+      "How far a cylinder without ends is from each node of a surface, along the node's "
+      "normal.\n\nsurface: of a body. point: on the axis. axis: of any length and sense. "
+      "radius: "
+      "negative for a bore.");
+   m.def(
+      "gaps_to_height",
+      [](const ContactSurface &surface, const Place &height)
+      { return array(gaps_to_height(surface, place_function(height, "height"))); },
+      arg("surface"), arg("height"),
+      "How far the obstacle z = height(x, y) is from each node of a surface, along the node's "
+      "normal.\n\nsurface: of a body. height: a function of (x, y), or a number.");
+
    nb::class_<Interface>(m, "Interface",
                          "Where two bodies may touch, or a body and a rigid obstacle, or two "
                          "parts of one body.")
@@ -144,8 +180,8 @@ void bind_reductions(nb::module_ &m)
          "__init__",
          [](Interface *self, const std::string &name, const Side &first,
             const std::optional<Side> &second, const std::string &slave,
-            const std::optional<Place> &gap, double most_overlap, bool tied,
-            const Pairing *pairing)
+            const std::optional<std::variant<Place, Numbers>> &gap, double most_overlap,
+            bool tied, const Pairing *pairing)
          {
             Interface made{name,
                            side(first, "first"),
@@ -155,29 +191,45 @@ void bind_reductions(nb::module_ &m)
                            finite(most_overlap, "most_overlap"),
                            tied};
             if (pairing) { made.pairing = *pairing; }
-            if (gap) { made.gap = place_function(*gap, "gap"); }
+            const bool surface = made.first.surface.size() > 0;
+            if (gap && gap->index() == 0)
+            {
+               made.gap = place_function(std::get<0>(*gap), "gap", surface);
+            }
+            else if (gap)
+            {
+               require(surface,
+                       "gap has a value for each node, which is for bodies in space; of "
+                       "others it is a number or a function of the place");
+               made.node_gaps = vector(std::get<1>(*gap), "gap");
+            }
             new (self) Interface(std::move(made));
          },
          arg("name"), arg("first"), arg("second") = nb::none(), nb::kw_only(),
          arg("slave") = "coarser", arg("gap") = nb::none(), arg("most_overlap") = 0.1,
          arg("tied") = false, arg("pairing") = nb::none(),
-         "name: its name in tables and messages.\nfirst, second: (number of the body, its "
-         "line); without second: a rigid obstacle; for a half-plane the number alone.\nslave: "
+         "name: its name in tables and sentences.\nfirst, second: (number of the body, its "
+         "line, or in space its surface); without second: a rigid obstacle; for a half-plane "
+         "the number alone.\nslave: "
          "the side that carries the nodes: 'coarser', 'finer', 'first' or 'second'.\ngap: a "
-         "function of (x, y) or a number, instead of the gap of the geometry.\nmost_overlap: "
+         "function of (x, y), in space of (x, y, z) or a value of each node of the side that "
+         "has "
+         "the nodes, or a number, instead of the gap of the geometry.\nmost_overlap: "
          "largest accepted overlap of the geometry, in lengths of the slave's elements.\ntied: "
          "joined permanently, without nodes in the problem; see "
-         "Reduction.tied_forces().\npairing: nodes one to one, from pair_lines(); without it "
-         "nodes need not match.")
+         "Reduction.tied_forces().\npairing: nodes one to one, from pair_lines() or "
+         "pair_surfaces(); without it nodes need not match, but in space they must.")
       .def_ro("name", &Interface::name)
       .def("__repr__",
            [](const Interface &self)
            {
               const auto called = [](const InterfaceSide &side)
               {
-                 return side.body < 0 ? std::string("a rigid obstacle")
-                                      : "body " + std::to_string(side.body) + " (" +
-                                           std::to_string(side.line.size()) + " nodes)";
+                 return side.body < 0
+                           ? std::string("a rigid obstacle")
+                           : "body " + std::to_string(side.body) + " (" +
+                                std::to_string(side.line.size() + side.surface.size()) +
+                                " nodes)";
               };
               return "<Interface '" + self.name + "': " + called(self.first) + " on " +
                      called(self.second) + ">";
@@ -193,6 +245,12 @@ void bind_reductions(nb::module_ &m)
       .def_ro("first", &InterfaceReport::first)
       .def_ro("nodes", &InterfaceReport::nodes)
       .def_ro("matching", &InterfaceReport::matching)
+      .def_prop_ro(
+         "frames",
+         [](const InterfaceReport &self) { return array(Eigen::MatrixXd(self.frames)); },
+         "in space (nodes, 9): first tangent, second tangent, normal into the body that has "
+         "the "
+         "nodes, of each node")
       .def_prop_ro("free_surface", each_of(&InterfaceReport::free_surface, &xy),
                    "places of nodes that nothing faces")
       .def_prop_ro("without_row", each_of(&InterfaceReport::without_row, &xy))
@@ -281,12 +339,31 @@ void bind_reductions(nb::module_ &m)
          "hold obliquely. Empty if there are none.")
       .def(
          "add_obstacle_motion",
-         [](Self &self, const std::string &name, const Place &ux, const Place &uy) {
-            self.add_obstacle_motion(name, place_function(ux, "ux"), place_function(uy, "uy"));
+         [](Self &self, const std::string &name, const Place &ux, const Place &uy,
+            const Place &uz)
+         {
+            const bool space = in_space(self.bodies[0]);
+            const auto *z = std::get_if<double>(&uz);
+            require(space || (z && *z == 0), "uz is not 0, and the bodies are not in space");
+            self.add_obstacle_motion(name, place_function(ux, "ux", space),
+                                     place_function(uy, "uy", space),
+                                     place_function(uz, "uz", space));
          },
-         arg("name"), arg("ux"), arg("uy"),
+         arg("name"), arg("ux"), arg("uy"), arg("uz") = 0.0,
          "Adds a load that moves the rigid obstacle of one body. name: name of the load. ux, "
-         "uy: displacement per unit multiplier, numbers or functions of (x, y).")
+         "uy, in space uz: displacement per unit multiplier, numbers or functions of (x, y), "
+         "in "
+         "space of (x, y, z).")
+      .def(
+         "add_shank",
+         [](Self &self, const std::string &pattern, double stiffness)
+         { self.add_shank(pattern, finite(stiffness, "stiffness")); },
+         arg("pattern"), arg("stiffness"),
+         "A bolt: the load `pattern` pulls two parts of the bodies together and becomes the "
+         "pretension; the force that acts is T - stiffness g, with g how far the parts have "
+         "come "
+         "together.\n\npattern: name of a load of forces whose sum is 1 on each part, opposite "
+         "on both. stiffness: force over displacement.")
       .def("__repr__",
            [](Self &of)
            {
@@ -309,10 +386,10 @@ void bind_reductions(nb::module_ &m)
    m.def(
       "reduce",
       [](const CondensedBody &body, const Place &gap, const Bodies &torsion)
-      { return completed(reduce(body, place_function(gap, "gap")), torsion); },
+      { return completed(reduce(body, place_function(gap, "gap", in_space(body))), torsion); },
       arg("body"), arg("gap") = 0.0, nb::kw_only(), arg("torsion") = nb::tuple(),
       "One body on a rigid obstacle. gap: its distance from the body, a number or a function "
-      "of (x, y); 0.0: the obstacle has the shape of the body.");
+      "of (x, y), in space of (x, y, z); 0.0: the obstacle has the shape of the body.");
    m.def(
       "reduce",
       [](const CondensedBody &body, const HalfPlane &half_plane, const Bodies &torsion)

@@ -52,6 +52,24 @@ def test_calculix_loop(tmp_path):
     assert loss(again) == pytest.approx(loss(shipped), rel=1e-5)
 
 
+def test_calculix_blocks():
+    """The forces of the deck and of the traction, 12 nodes by 0.1 N and 1.5 mm² by (0.2, 0, 0.1) N/mm²."""
+    out = run(EXAMPLES / "calculix_blocks.py")
+    assert "converged" in out
+    line = next(each for each in out.splitlines() if each.startswith("forces on the upper block"))
+    assert numbers(line) == pytest.approx([-0.3, 1.2, -0.15])
+
+
+def test_lapped_beams(tmp_path):
+    """A coarse joint: it bears what is pulled and pressed, 2 N/mm² on 25 by 25 and on 120 by 25 mm, and loses work by slip."""
+    pytest.importorskip("skfem")
+    out = run(EXAMPLES / "lapped_beams.py", 0.2, tmp_path)
+    line = next(each for each in out.splitlines() if each.startswith("forces of the lap"))
+    assert "converged" in out and (tmp_path / "left.mtx").exists()
+    assert numbers(line) == pytest.approx([-1250, 6000, 0], abs=1e-8)
+    assert numbers(next(each for each in out.splitlines() if each.startswith("loss of a cycle")))[0] > 1
+
+
 def test_sphere(tmp_path):
     """The study by few squares and by triangles: closed forms of displacements to one per cent, of radii within their ±."""
     pytest.importorskip("matplotlib")

@@ -1,5 +1,8 @@
 """Bodies in space: scikit-fem's hexahedra, their surfaces, pairs, obstacles and fields."""
 
+import shutil
+import subprocess
+
 import cattaneo
 import numpy as np
 import pytest
@@ -130,3 +133,224 @@ def test_mistakes_are_named():
     body = block([0, 1], [0, 1], [0, 1])
     with pytest.raises(cattaneo.InputError, match="direction"):
         body.fix([0], "r")
+
+
+def deck(kind, cells=(3, 2, 2)):
+    """Two blocks of solids that touch at y = 0, the lower one held below: a deck of CalculiX, and the lower one's places and elements."""
+    corners = {"C3D4": 4, "C3D10": 4, "C3D6": 6, "C3D15": 6}.get(kind, 8)
+    lines, lower = [], None
+    for name, low, first, young, poisson in (("LOWER", -1.0, 1, 200.0, 0.3), ("UPPER", 0.0, 1001, 100.0, 0.25)):
+        x, y, z = (np.linspace(a, a + size, n + 1) for a, size, n in zip((0, low, 0), (1.5, 1, 1), cells))
+        number = np.arange((cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1)).reshape([n + 1 for n in cells])
+        places = [np.array([x[i], y[j], z[k]]) for i, j, k in np.ndindex(number.shape)]
+        elements = []
+        for i, j, k in np.ndindex(*cells):
+            low_side = [number[i, j, k], number[i + 1, j, k], number[i + 1, j + 1, k], number[i, j + 1, k]]
+            h = [*low_side, *(node + 1 for node in low_side)]
+            if corners == 8:
+                elements.append(h)
+            elif corners == 6:
+                elements += [[h[a] for a in (0, 1, 3, 4, 5, 7)], [h[a] for a in (1, 2, 3, 5, 6, 7)]]
+            else:
+                elements += [[h[0], h[s], h[t], h[6]] for s, t in ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1))]
+        middles = {}
+        for element in elements if kind in ("C3D10", "C3D15", "C3D20", "C3D20R") else []:
+            for a, b in EDGES[corners]:
+                ends = tuple(sorted((element[a], element[b])))
+                if ends not in middles:
+                    middles[ends] = len(places)
+                    places.append((places[ends[0]] + places[ends[1]]) / 2)
+                element.append(middles[ends])
+        places = np.array(places)
+        lower = (places, np.array(elements)) if lower is None else lower
+        lines.append("*NODE")
+        lines += [f"{first + node}, {at[0]!r}, {at[1]!r}, {at[2]!r}" for node, at in enumerate(places.tolist())]
+        lines.append(f"*ELEMENT, TYPE={kind}, ELSET={name}")
+        for element in elements:
+            words = [str(len(lines))] + [str(first + node) for node in element]
+            rows = [", ".join(words[k : k + 10]) for k in range(0, len(words), 10)]
+            lines.append(",\n".join(rows))
+        for which, level in (("FACE", 0.0), ("FAR", -1.0 if name == "LOWER" else 1.0)):
+            lines.append(f"*NSET, NSET={name}_{which}")
+            lines += [str(first + node) for node in np.flatnonzero(np.abs(places[:, 1] - level) < 1e-12)]
+        lines += [f"*MATERIAL, NAME={name}", "*ELASTIC", f"{young}, {poisson}", "*DENSITY", "1.", f"*SOLID SECTION, ELSET={name}, MATERIAL={name}"]
+    lines += ["*BOUNDARY", "LOWER_FAR, 1, 3", "*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*CLOAD", "UPPER_FAR, 2, -0.1", "*END STEP", ""]
+    return "\n".join(lines), lower
+
+
+EDGES = {
+    4: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
+    6: ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)),
+    8: ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
+}
+ELEMENTS = ["C3D4", "C3D6", "C3D8", "C3D8I", "C3D10", "C3D15", "C3D20", "C3D20R"]
+
+
+@pytest.mark.parametrize("kind", ELEMENTS)
+def test_decks_of_calculix(kind, tmp_path):
+    """Two blocks by the matrix that ccx writes: pressed, sheared, in equilibrium; tetrahedra have the stiffness of scikit-fem's."""
+    if shutil.which("ccx") is None:
+        pytest.skip("there is no ccx (Debian: calculix-ccx) to write the matrix")
+    text, (places, elements) = deck(kind)
+    (tmp_path / "blocks.inp").write_text(text)
+    subprocess.run(["ccx", "blocks"], cwd=tmp_path, check=True, capture_output=True, timeout=100)
+    lower, upper = cattaneo.read_stiffness(str(tmp_path / "blocks.sti")).parts()
+    assert (lower.name, upper.name) == ("LOWER", "UPPER")
+    upper.add_traction("Q", "UPPER_FAR", (0.2, 0, 0.1))
+    bodies = [cattaneo.condense(body, body.contact_surface(body.name + "_FACE")) for body in (upper, lower)]
+    reduction = cattaneo.reduce(*bodies)
+    reduction.problem.friction = 0.3
+    report = cattaneo.march(reduction.problem, [{}, {"CLOAD1": 1}, {"CLOAD1": 1, "Q": 1}])
+    forces = reduction.contact_forces(0, report.state)
+    count = len(upper.nodes_of("UPPER_FAR"))
+    assert forces.sum(axis=0) == pytest.approx([-0.2 * 1.5, 0.1 * count, -0.1 * 1.5], abs=1e-10)
+    if kind not in ("C3D4", "C3D10"):
+        return
+    skfem = pytest.importorskip("skfem")
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    mesh = skfem.MeshTet(places[: elements[:, :4].max() + 1].T, elements[:, :4].T)
+    element = skfem.ElementTetP1() if kind == "C3D4" else skfem.ElementTetP2()
+    basis = skfem.Basis(mesh, skfem.ElementVector(element))
+    K = linear_elasticity(*lame_parameters(200.0, 0.3)).assemble(basis)
+    at = basis.doflocs.T[::3]
+    own = cattaneo.NodalStiffness(K, at, elements=basis.element_dofs.T[:, ::3] // 3)
+    own.fix(own.places[:, 1] == -1, "xyz")
+    theirs, ours = bodies[1], cattaneo.condense(own, own.contact_surface(own.places[:, 1] == 0))
+    order = [np.argmin(np.abs(ours.surface.positions - place).sum(axis=1)) for place in theirs.surface.positions]
+    rows = np.concatenate([np.array(order) + len(order) * c for c in range(3)])
+    assert theirs.S == pytest.approx(ours.S[np.ix_(rows, rows)], abs=1e-10 * ours.S.max())
+
+
+def test_faces_of_order_two():
+    """tri 6 and quad 8: a block on a plane bears a pressure at all of its unknowns, and nodes get the consistent forces of their own."""
+    skfem = pytest.importorskip("skfem")
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    grid = np.linspace(0, 1, 5)
+    for mesh, element, nodes in (
+        (skfem.MeshTet.init_tensor(grid, grid, grid), skfem.ElementTetP2(), 81),
+        (skfem.MeshHex.init_tensor(grid, grid, grid), skfem.ElementHexS2(), 65),
+    ):
+        basis = skfem.Basis(mesh, skfem.ElementVector(element), intorder=4)
+        K = linear_elasticity(*lame_parameters(1.0, 0.3)).assemble(basis)
+        elements = basis.element_dofs.T[:, ::3] // 3
+        if nodes == 65:
+            elements[:, :8] = elements[:, CORNERS]
+        body = cattaneo.NodalStiffness(K, basis.doflocs.T[::3], elements=elements)
+        body.add_traction("P", body.places[:, 1] == 1, (0, -1, 0))
+        condensed = cattaneo.condense(body, body.contact_surface(body.places[:, 1] == 0))
+        surface = condensed.surface
+        assert len(surface) == nodes and surface.weights.min() > 0
+        reduction = cattaneo.reduce(condensed)
+        state = cattaneo.march(reduction.problem, [{}, {"P": 1}]).state
+        assert state.p / surface.weights == pytest.approx(1)
+        forces = reduction.contact_forces(0, state)
+        assert forces == pytest.approx(surface.forces_at_nodes(np.outer(state.p, (0, 1, 0))), abs=1e-12)
+        assert (forces[:, 1] < 1e-12).sum() >= 9
+        u = np.random.default_rng(1).normal(size=(nodes, 3))
+        assert surface.of_nodes(surface.at_nodes(u)) == pytest.approx(u)
+
+
+def test_stack_ties_and_obstacle_that_moves():
+    """Three blocks pressed on a plane: two faces in contact, or tied as one block; and the plane that comes up instead."""
+    grid, tall = np.linspace(0, 1, 4), np.linspace(0, 3, 7)
+
+    def bottom(body):
+        return body.contact_surface(body.places[:, 1] == 0)
+
+    def marched(reduction):
+        reduction.problem.friction = 0.3
+        return cattaneo.march(reduction.problem, [{}, {"D": 1}]).state
+
+    def by_place(reduction, state):
+        order = np.lexsort(reduction.problem.position.T)
+        return reduction.problem.position[order], state.p[order]
+
+    whole = block(grid, tall, grid, 2, 0.3)
+    top = whole.places[:, 1] == 3
+    whole.add_displacement("D", top, "y", -0.02)
+    whole.fix(top, "xz")
+    single = cattaneo.reduce(cattaneo.condense(whole, bottom(whole)), 0.001)
+    places, expected = by_place(single, marched(single))
+    assert expected.sum() > 0.01
+    for tied in (False, True):
+        parts = [block(grid, np.linspace(k, k + 1, 3), grid, 2, 0.3, f"part {k}") for k in range(3)]
+        top = parts[2].places[:, 1] == 3
+        parts[2].add_displacement("D", top, "y", -0.02)
+        parts[2].fix(top, "xz")
+        faces = [[body.contact_surface(body.places[:, 1] == y) for y in (k, k + 1) if y < 3] for k, body in enumerate(parts)]
+        bodies = [cattaneo.condense(body, cattaneo.joined(own)) for body, own in zip(parts, faces)]
+        interfaces = [
+            cattaneo.Interface("plane", (0, faces[0][0]), gap=lambda x, y, z: 0.001),
+            cattaneo.Interface("low", (0, faces[0][1]), (1, faces[1][0]), tied=tied),
+            cattaneo.Interface("high", (2, faces[2][0]), (1, faces[1][1]), tied=tied),
+        ]
+        reduction = cattaneo.reduce(bodies, interfaces)
+        assert reduction.problem.nodes == (16 if tied else 48)
+        state = marched(reduction)
+        if tied:
+            at, pressed = by_place(reduction, state)
+            assert at == pytest.approx(places) and pressed == pytest.approx(expected, rel=1e-9)
+            continue
+        carried = [state.p[face.first : face.first + face.nodes].sum() for face in reduction.interfaces]
+        assert carried == pytest.approx([carried[0]] * 3)
+        assert reduction.contact_forces(1, state).sum(axis=0) == pytest.approx(0, abs=1e-12)
+    rests = block(grid, tall, grid, 2, 0.3)
+    rests.fix(rests.places[:, 1] == 3, "xyz")
+    moving = cattaneo.reduce(cattaneo.condense(rests, bottom(rests)), 0.001)
+    moving.add_obstacle_motion("D", 0, lambda x, y, z: 0.02, 0)
+    assert by_place(moving, marched(moving))[1] == pytest.approx(expected, rel=1e-9)
+
+
+def test_block_of_hexahedra_under_shear_in_two_directions():
+    """Values of an independent program: nodes that stick after each leg, and the work of friction, of 10 increments a leg."""
+    body = block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5), np.linspace(-1, 1, 9))
+    top = body.places[:, 1] == 1
+    # Its z is our y: x, y, z are z, x, y here.
+    for name, traction in (("P", (0, -1, 0)), ("X", (0, 0, 1)), ("Y", (1, 0, 0))):
+        body.add_traction(name, top, traction)
+    reduction = cattaneo.reduce(cattaneo.condense(body, body.contact_surface(body.places[:, 1] == 0)))
+    problem = reduction.problem
+    problem.friction = 0.3
+    history = [{}, {"P": 1}, {"X": 0.18}, {"Y": 0.18}]
+    sticking, work = [], []
+    for state in cattaneo.march(problem, history, increments=10, keep_states=True).states:
+        if state.time == round(state.time):
+            assert (state.p > 0).all()
+            sticking.append((np.hypot(*state.q.reshape(2, -1)) < 0.3 * state.p * (1 - 1e-9)).sum())
+            work.append(state.dissipation)
+    assert sticking == [49, 48, 7]
+    assert work == pytest.approx([0.00910645051, 0.02152934667, 0.0846171764], rel=1e-8)
+
+
+def test_equilibrium_in_long_double_and_restart():
+    """K u of both bodies is the loads and the contact forces; a march taken up again has the same bits."""
+    x, z = np.linspace(0, 2, 6), np.linspace(0, 1, 4)
+    lower, upper = block(x, np.linspace(-1, 0, 4), z, 5, 0.2), block(x, np.linspace(0, 1, 4), z, 1, 0.3)
+    loads = {"all": "xyz", "P": (0, -1, 0), "Q": (0.6, 0, 0.8)}
+    pressed(lower, upper, loads)
+    condensed = [cattaneo.condense(body, body.contact_surface(body.places[:, 1] == 0)) for body in (upper, lower)]
+    reduction = cattaneo.reduce(*condensed)
+    problem = reduction.problem
+    problem.friction = 0.3
+    points = [{}, {"P": 1}, {"Q": 0.28}, {"Q": -0.25}]
+    state = cattaneo.march(problem, cattaneo.LoadHistory.through(problem, points)).state
+    first = cattaneo.march(problem, cattaneo.LoadHistory.through(problem, points[:3])).state
+    again = cattaneo.march(problem, cattaneo.LoadHistory.through(problem, points), first).state
+    for name in ("q", "p", "v", "w"):
+        assert np.array_equal(getattr(again, name), getattr(state, name)), name
+    slip = np.hypot(*state.q.reshape(2, -1)) > 0.3 * state.p * (1 - 1e-9)
+    assert slip.any() and not slip.all()
+    long = np.longdouble
+    for number, body in enumerate((upper, lower)):
+        u = reduction.displacement(number, state).astype(long)
+        K = body.K.tocoo()
+        internal = np.zeros(K.shape[0], long)
+        np.add.at(internal, K.row, K.data.astype(long) * u[K.col])
+        external = np.zeros(K.shape[0], long)
+        for name, forces in body.loads.items():
+            external += long(state.multipliers[problem.names.index(name)]) * forces.astype(long)
+        external[condensed[number].surface.dofs] += reduction.contact_forces(number, state)
+        free = np.setdiff1d(np.arange(K.shape[0]), body.fixed)
+        assert np.abs(internal - external)[free].max() < 2e-12 * np.abs(external).max()

@@ -10,11 +10,15 @@
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
+#include <map>
 
 namespace
 {
@@ -34,10 +38,81 @@ enum class Solid
    tetrahedra
 };
 
+/// Edges of a solid with so many corners: those of 4, 6 and 8.
+std::vector<std::pair<int, int>> edges_of(std::size_t corners)
+{
+   if (corners == 4) { return {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}; }
+   if (corners == 6)
+   {
+      return {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+   }
+   return {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+           {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+}
+
+/// Parameters of the corners of a solid.
+std::vector<Vector3d> corners_of(std::size_t corners)
+{
+   if (corners == 4) { return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
+   if (corners == 6)
+   {
+      return {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+   }
+   return {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+}
+
+/// Gradients of the functions of order 2 of a solid with so many corners: those of its
+/// monomials that are 1 at a node and 0 at the others.
+MatrixXd quadratic_gradients(std::size_t corners, const Vector3d &at)
+{
+   std::vector<Vector3d> nodes = corners_of(corners);
+   for (const auto &[a, b] : edges_of(corners)) { nodes.push_back((nodes[a] + nodes[b]) / 2); }
+   std::vector<std::array<int, 3>> powers;
+   for (int i = 0; i <= 2; ++i)
+   {
+      for (int j = 0; j <= 2; ++j)
+      {
+         for (int k = 0; k <= 2; ++k)
+         {
+            const int squares = (i == 2) + (j == 2) + (k == 2);
+            const bool has = corners == 4   ? i + j + k <= 2
+                             : corners == 6 ? i + j <= 2 && (k < 2 || i + j <= 1)
+                                            : squares <= 1;
+            if (has) { powers.push_back({i, j, k}); }
+         }
+      }
+   }
+   const auto n = static_cast<Eigen::Index>(nodes.size());
+   EXPECT_EQ(powers.size(), nodes.size());
+   const auto power = [](double x, int of) { return of < 0 ? 0 : std::pow(x, of); };
+   MatrixXd values(n, n), slopes(n, 3);
+   for (Eigen::Index m = 0; m < n; ++m)
+   {
+      const std::array<int, 3> &of = powers[m];
+      for (Eigen::Index a = 0; a < n; ++a)
+      {
+         values(m, a) =
+            power(nodes[a][0], of[0]) * power(nodes[a][1], of[1]) * power(nodes[a][2], of[2]);
+      }
+      for (int c = 0; c < 3; ++c)
+      {
+         double slope = of[c] * power(at[c], of[c] - 1);
+         for (int d = 0; d < 3; ++d) { slope *= d == c ? 1 : power(at[d], of[d]); }
+         slopes(m, c) = slope;
+      }
+   }
+   return values.lu().solve(slopes);
+}
+
 /// Gradients of the functions of an element by its parameters, a row each.
 MatrixXd gradients(std::size_t nodes, int dimension, const Vector3d &at)
 {
    MatrixXd G(nodes, dimension);
+   if (nodes == 10 || nodes == 15 || nodes == 20)
+   {
+      return quadratic_gradients(nodes == 10 ? 4 : nodes == 15 ? 6 : 8, at);
+   }
    if (dimension == 2 || nodes == 8) // bilinear or trilinear on -1 to 1
    {
       const double corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
@@ -77,6 +152,29 @@ std::vector<std::pair<Vector3d, double>> rule(std::size_t nodes, int dimension)
 {
    const double g = 1 / std::sqrt(3.0);
    std::vector<std::pair<Vector3d, double>> points;
+   if (nodes == 10 || nodes == 15 || nodes == 20)
+   {
+      // Three points a direction on 0 to 1; of triangles and tetrahedra one side of a square or
+      // a cube is a point.
+      const double far = std::sqrt(0.15), one[] = {0.5 - far, 0.5, 0.5 + far},
+                   its[] = {5. / 18, 8. / 18, 5. / 18};
+      for (int k = 0; k < 27; ++k)
+      {
+         const int i = k / 9, j = k / 3 % 3, l = k % 3;
+         const double a = one[i], b = one[j], c = one[l], w = its[i] * its[j] * its[l];
+         if (nodes == 20) { points.push_back({{2 * a - 1, 2 * b - 1, 2 * c - 1}, 8 * w}); }
+         else if (nodes == 15)
+         {
+            points.push_back({{a, (1 - a) * b, 2 * c - 1}, 2 * (1 - a) * w});
+         }
+         else
+         {
+            const double left = (1 - a) * (1 - b);
+            points.push_back({{a, (1 - a) * b, left * c}, (1 - a) * left * w});
+         }
+      }
+      return points;
+   }
    if (dimension == 3 && nodes == 4) { return {{Vector3d::Constant(0.25), 1.0 / 6}}; }
    if (dimension == 3 && nodes == 6)
    {
@@ -151,7 +249,8 @@ NodalStiffness::Matrix stiffness(const std::vector<Nodes> &elements,
    up, z through the thickness. */
 NodalStiffness block(std::array<int, 3> cells, const Vector3d &from, const Vector3d &size,
                      double E, double nu, Solid solid = Solid::hexahedra,
-                     const Matrix3d &turn = Matrix3d::Identity())
+                     const Matrix3d &turn = Matrix3d::Identity(), int order = 1,
+                     const std::function<Vector3d(const Vector3d &)> &bend = {})
 {
    NodalStiffness made;
    made.formulation = Formulation::space;
@@ -204,8 +303,44 @@ NodalStiffness block(std::array<int, 3> cells, const Vector3d &from, const Vecto
          }
       }
    }
+   if (order == 2)
+   {
+      // Middles of edges belong to the sets that have both ends.
+      std::map<std::pair<int, int>, int> known;
+      const auto has = [&made](const std::string &set, int node)
+      { return std::count(made.sets[set].begin(), made.sets[set].end(), node) > 0; };
+      for (Nodes &element : elements)
+      {
+         const Nodes corners = element;
+         for (const auto &[a, b] : edges_of(corners.size()))
+         {
+            const std::pair<int, int> ends = std::minmax(corners[a], corners[b]);
+            const auto id = static_cast<int>(places.size());
+            const auto [at, is_new] = known.emplace(ends, id);
+            element.push_back(at->second);
+            if (!is_new) { continue; }
+            places.push_back((places[ends.first] + places[ends.second]) / 2);
+            made.places[id] = places.back().head(2);
+            made.z[id] = places.back()[2];
+            for (int c = 1; c <= 3; ++c) { made.dofs.push_back({id, c}); }
+            for (const char *set : {"BOTTOM", "TOP", "ALL"})
+            {
+               if (has(set, ends.first) && has(set, ends.second))
+               {
+                  made.sets[set].push_back(id);
+               }
+            }
+         }
+      }
+   }
+   for (std::size_t node = 0; node < places.size() && bend; ++node)
+   {
+      places[node] = bend(places[node]);
+      made.places[static_cast<int>(node)] = places[node].head(2);
+      made.z[static_cast<int>(node)] = places[node][2];
+   }
    made.K = stiffness(elements, places, 3, E, nu);
-   made.faces = outer_faces(elements);
+   made.faces = outer_faces(elements, [&places](int node) { return places[node]; });
    return made;
 }
 
@@ -336,10 +471,14 @@ TEST(Surfaces, PressureGoesThroughMatchingFaces)
    const double E = 3, pressure = 0.02, height = 1.5;
    for (const Solid solid : {Solid::hexahedra, Solid::wedges, Solid::tetrahedra})
    {
-      for (const Matrix3d &turn : {Matrix3d(Matrix3d::Identity()), askew})
+      for (const int way : {0, 1, 2, 3})
       {
-         NodalStiffness upper = block({3, 2, 2}, {0, 0, 0}, {3, height, 2}, E, 0, solid, turn),
-                        lower = block({3, 2, 2}, {0, -1, 0}, {3, 1, 2}, 2 * E, 0, solid, turn);
+         const Matrix3d turn = way % 2 == 0 ? Matrix3d(Matrix3d::Identity()) : askew;
+         const int order = way < 2 ? 1 : 2;
+         NodalStiffness upper = block({3, 2, 2}, {0, 0, 0}, {3, height, 2}, E, 0, solid, turn,
+                                      order),
+                        lower = block({3, 2, 2}, {0, -1, 0}, {3, 1, 2}, 2 * E, 0, solid, turn,
+                                      order);
          for (int c : {1, 2, 3}) { lower.fix(lower.nodes_of("BOTTOM"), c); }
          upper.add_surface_traction("P", upper.nodes_of("TOP"),
                                     Vector3d(-pressure * turn.col(1)));
@@ -574,7 +713,7 @@ TEST(Surfaces, WrongSurfacesAreRefused)
       [&] {
          body.contact_surface(std::vector<Nodes>{{0, 1}});
       },
-      "has 2 nodes, must have 3 or 4");
+      "has 2 nodes, must have 3, 4, 6, 8 or 9");
    expect_input_error(
       [&] {
          body.contact_surface(std::vector<Nodes>{{0, 1, 2}});
@@ -602,4 +741,532 @@ TEST(Surfaces, WrongSurfacesAreRefused)
    mixed.fixed.clear();
    std::swap(mixed.dofs[0], mixed.dofs[4]);
    expect_input_error([&] { mixed.body(); }, "it resists a ");
+}
+
+namespace
+{
+
+/// The forces of a problem whose single increment goes to loads of 1.
+ContactState pressed(const ReducedProblem &problem, double friction)
+{
+   return solved(problem, friction, {VectorXd::Ones(Eigen::Index(problem.patterns.size()))})[0];
+}
+
+/// A block that stands on the origin's plane, clamped on top.
+NodalStiffness hanging(Solid solid, int order, const Matrix3d &turn = Matrix3d::Identity())
+{
+   NodalStiffness body = block({3, 2, 2}, {-1, 0, -1}, {2, 1.2, 2}, 1, 0.3, solid, turn, order);
+   return body;
+}
+
+} // namespace
+
+TEST(Surfaces, FunctionsOfOrderTwoHavePositiveWeights)
+{
+   // Of one face: 2/15 and 1/5 of a triangle's area, 1/20 and 1/5 of a quadrilateral's, where
+   // the consistent weights are 0 and 1/3, -1/12 and 1/3.
+   for (const Solid solid : {Solid::hexahedra, Solid::tetrahedra})
+   {
+      const bool triangle = solid == Solid::tetrahedra;
+      const NodalStiffness body =
+         block({1, 1, 1}, {0, 0, 0}, {2, 1, 3}, 1, 0.3, solid, askew, 2);
+      for (const Nodes &face : body.faces)
+      {
+         const auto corners = static_cast<Eigen::Index>(triangle ? 3 : 4);
+         const ContactSurface surface = body.contact_surface(std::vector<Nodes>{face});
+         const VectorXd weights = surface.weights(), areas = surface.forces_at_nodes(weights);
+         const double area = weights.sum();
+         for (Eigen::Index a = 0; a < surface.size(); ++a)
+         {
+            const bool middle = a >= corners;
+            EXPECT_EQ(surface.nodes[a].between[0] >= 0, middle);
+            const double its = middle     ? 0.2
+                               : triangle ? 2. / 15
+                                          : 0.05,
+                         of_nodes = middle     ? 1. / 3
+                                    : triangle ? 0
+                                               : -1. / 12;
+            EXPECT_NEAR(weights[a] / area, its, 1e-14);
+            EXPECT_NEAR(areas[a] / area, of_nodes, 1e-14);
+         }
+         // Work is the same in both, and straight edges leave places where they are.
+         EXPECT_LT(largest(surface.points() - surface.positions()), 1e-14);
+         const MatrixXd u = MatrixXd::Random(surface.size(), 3),
+                        f = MatrixXd::Random(surface.size(), 3);
+         EXPECT_NEAR(surface.at_nodes(u).cwiseProduct(surface.forces_at_nodes(f)).sum(),
+                     u.cwiseProduct(f).sum(), 1e-14);
+         EXPECT_LT(largest(surface.of_nodes(surface.at_nodes(u)) - u), 1e-14);
+         EXPECT_LT(largest(surface.forces_of_nodes(surface.forces_at_nodes(f)) - f), 1e-14);
+      }
+   }
+}
+
+TEST(Surfaces, FlatPunchLeavesNoNodeOfOrderTwoOpen)
+{
+   // A block on a rigid plane, pressed by tractions that differ from place to place: all of it
+   // bears. The consistent forces of the nodes themselves are not positive at the 9 corners
+   // within, where the signs of nodal forces would open the contact.
+   for (const Solid solid : {Solid::hexahedra, Solid::tetrahedra})
+   {
+      NodalStiffness body =
+         block({4, 3, 4}, {0, 0, 0}, {1, 0.7, 1}, 1, 0.3, solid, Matrix3d::Identity(), 2);
+      body.add_surface_traction("P", body.nodes_of("TOP"), Vector3d(0, -1, 0));
+      const CondensedBody condensed = on_surface(body, "BOTTOM");
+      const ContactSurface &surface = condensed.surface;
+      EXPECT_EQ(surface.size(), solid == Solid::hexahedra ? 65 : 81);
+      const Reduction reduction = reduce(condensed, VectorXd::Zero(surface.size()));
+      const ContactState state = pressed(reduction.problem, 0);
+      EXPECT_GT(state.p.cwiseQuotient(surface.weights()).minCoeff(), 0.5);
+      expect_relative(state.p.sum(), 1, 1e-12);
+      const MatrixXd nodal = reduction.contact_forces(0, state.q, state.p);
+      int pulls = 0;
+      for (Eigen::Index i = 0; i < surface.size(); ++i)
+      {
+         const Vector3d &x = surface.nodes[i].position;
+         const bool within = std::min({x[0], x[2], 1 - x[0], 1 - x[2]}) > 1e-9;
+         const bool corner = surface.nodes[i].between[0] < 0;
+         pulls += within && corner && nodal(i, 1) < 1e-3 / 81;
+      }
+      EXPECT_EQ(pulls, 9);
+      expect_relative(nodal.col(1).sum(), 1, 1e-12);
+   }
+}
+
+TEST(Surfaces, OrderTwoReducesAsTheWholeStiffnessDoes)
+{
+   // The block's reduced energy is that of the whole body, whatever the unknowns, on curved
+   // faces and where supports hold nodes.
+   const auto bend = [](const Vector3d &x)
+   { return Vector3d(x[0], x[1] + 0.1 * x[0] * (1 - x[0]), x[2]); };
+   NodalStiffness body = block({2, 2, 2}, {0, 0, 0}, {1, 1, 1}, 1, 0.3, Solid::hexahedra,
+                               Matrix3d::Identity(), 2, bend);
+   const CondensedBody free = on_surface(body, "BOTTOM");
+   EXPECT_EQ(free.rigid_modes, 6);
+   EXPECT_LT(largest(free.S * free.rigid_motions({3, 2, 1})), 1e-11 * largest(free.S));
+   EXPECT_GT(largest(free.surface.points() - free.surface.positions()), 1e-3);
+   // Forces have the same moments about any point in both.
+   const MatrixXd any = MatrixXd::Random(free.nodes(), 3),
+                  nodal = free.surface.forces_at_nodes(any);
+   Vector3d moment(0, 0, 0);
+   for (Eigen::Index i = 0; i < free.nodes(); ++i)
+   {
+      moment += Vector3d(free.surface.points().row(i)).cross(Vector3d(any.row(i))) -
+                Vector3d(free.surface.positions().row(i)).cross(Vector3d(nodal.row(i)));
+   }
+   EXPECT_LT(moment.norm(), 1e-13);
+   body.add_forces("F", {body.nodes_of("TOP").front()}, 1, 1);
+   Nodes side;
+   for (int node : body.nodes_of("ALL"))
+   {
+      if (body.z.at(node) == 0) { side.push_back(node); }
+   }
+   body.fix(side, 3);
+   for (int c : {1, 2, 3}) { body.fix(body.nodes_of("TOP"), c); }
+   CondensedBody held = on_surface(body, "BOTTOM");
+   EXPECT_EQ(held.rigid_modes, 0);
+   EXPECT_LT(held.error_estimate(), 1e-10);
+   VectorXd u = VectorXd::Random(held.S.rows());
+   for (int row : held.held) { u[row] = 0; }
+   const VectorXd field = held.recover(u, VectorXd::Zero(1));
+   const VectorXd forces = body.K * field;
+   EXPECT_NEAR(u.dot(held.S * u), field.dot(forces), 1e-12 * field.dot(forces));
+   // Support of a middle alone is a relation between unknowns.
+   const ContactSurface bottom = body.contact_surface(body.nodes_of("BOTTOM"));
+   NodalStiffness odd = body;
+   for (const SurfaceNode &node : bottom.nodes)
+   {
+      if (node.between[0] < 0 || node.position[2] != 0.5) { continue; }
+      odd.fix({body.dofs[node.dofs[0]].node}, 1);
+      break;
+   }
+   expect_input_error([&] { on_surface(odd, "BOTTOM"); }, "it must hold both ends as well");
+}
+
+TEST(Surfaces, StackOfThreeBodiesPassesPressureAndTiesAreOneBody)
+{
+   for (const int order : {1, 2})
+   {
+      const double E = 2, pressure = 0.03;
+      for (const Solid solid : {Solid::hexahedra, Solid::wedges, Solid::tetrahedra})
+      {
+         std::vector<NodalStiffness> parts;
+         for (int k : {0, 1, 2})
+         {
+            parts.push_back(block({2, 1, 2}, {0, double(k), 0}, {1, 1, 2}, E, 0.3, solid,
+                                  Matrix3d::Identity(), order));
+         }
+         NodalStiffness whole =
+            block({2, 3, 2}, {0, 0, 0}, {1, 3, 2}, E, 0.3, solid, Matrix3d::Identity(), order);
+         for (NodalStiffness *top : {&parts[2], &whole})
+         {
+            top->add_surface_traction("P", top->nodes_of("TOP"), Vector3d(0, -pressure, 0));
+            top->add_surface_traction("Q", top->nodes_of("TOP"),
+                                      Vector3d(0.15 * pressure, 0, 0.1 * pressure));
+         }
+         std::vector<CondensedBody> bodies;
+         for (const NodalStiffness &part : parts)
+         {
+            std::vector<ContactSurface> faces = {part.contact_surface(part.nodes_of("BOTTOM"))};
+            if (&part != &parts[2])
+            {
+               faces.push_back(part.contact_surface(part.nodes_of("TOP")));
+            }
+            bodies.push_back(condense(part.body(), joined(faces)));
+         }
+         const auto side = [&](int b, const char *set)
+         {
+            InterfaceSide made;
+            made.body = b;
+            made.surface = parts[b].contact_surface(parts[b].nodes_of(set));
+            return made;
+         };
+         std::vector<Interface> interfaces(3);
+         interfaces[0].name = "ground";
+         interfaces[0].first = side(0, "BOTTOM");
+         interfaces[1].name = "low";
+         interfaces[1].first = side(0, "TOP");
+         interfaces[1].second = side(1, "BOTTOM");
+         interfaces[2].name = "high";
+         interfaces[2].first = side(2, "BOTTOM");
+         interfaces[2].second = side(1, "TOP");
+         // 1. In contact: each face carries what lies above it, and each body is balanced.
+         const Reduction loose = reduce(bodies, interfaces);
+         ASSERT_EQ(loose.interfaces.size(), 3U);
+         EXPECT_EQ(loose.interfaces[1].bodies[1], 1);
+         EXPECT_TRUE(loose.interfaces[2].matching);
+         const ContactState only_pressed =
+            solved(loose.problem, 0.4, {Eigen::Vector2d(1, 0)}).front();
+         for (const InterfaceReport &face : loose.interfaces)
+         {
+            EXPECT_NEAR(only_pressed.p.segment(face.first, face.nodes).sum(), 2 * pressure,
+                        1e-13);
+         }
+         EXPECT_LT(
+            loose.contact_forces(1, only_pressed.q, only_pressed.p).colwise().sum().norm(),
+            1e-13);
+         // 2. Tied at both faces: the block on the ground alone.
+         interfaces[1].tied = interfaces[2].tied = true;
+         const Reduction tied = reduce(bodies, interfaces);
+         const CondensedBody one = on_surface(whole, "BOTTOM");
+         const Reduction single = reduce(one, VectorXd::Zero(one.nodes()));
+         ASSERT_EQ(tied.problem.nodes(), single.problem.nodes());
+         const std::vector<VectorXd> loads = {Eigen::Vector2d(1, 0), Eigen::Vector2d(1, 1)};
+         const ContactState expected = solved(single.problem, 0.2, loads).back(),
+                            found = solved(tied.problem, 0.2, loads).back();
+         const auto forces = [](const Reduction &of, const ContactState &state)
+         {
+            const ContactSurface &surface = of.bodies[0].surface;
+            const MatrixXd its = of.contact_forces(
+               0, state.q, state.p, of.tied_forces(state.v, state.w, state.multipliers));
+            std::map<std::pair<double, double>, Vector3d> by_place;
+            for (Eigen::Index i = 0; i < surface.size(); ++i)
+            {
+               const Vector3d &x = surface.nodes[i].position;
+               if (x[1] == 0) { by_place[{x[0], x[2]}] = its.row(i); }
+            }
+            return by_place;
+         };
+         const auto before = forces(single, expected), after = forces(tied, found);
+         ASSERT_EQ(before.size(), after.size());
+         for (const auto &[place, force] : before)
+         {
+            EXPECT_LT((after.at(place) - force).norm(), 1e-10 * pressure);
+         }
+      }
+   }
+}
+
+TEST(Surfaces, InterfacesThatMeetAtAnEdgeFormNoRing)
+{
+   // Two blocks side by side stand on a third one, and touch each other.
+   NodalStiffness left = block({2, 1, 1}, {-1, 0, 0}, {1, 1, 1}, 1, 0.2),
+                  right = block({2, 1, 1}, {0, 0, 0}, {1, 1, 1}, 1, 0.2),
+                  base = block({4, 1, 1}, {-1, -1, 0}, {2, 1, 1}, 3, 0.2);
+   for (int c : {1, 2, 3}) { base.fix(base.nodes_of("BOTTOM"), c); }
+   std::vector<NodalStiffness *> all = {&left, &right, &base};
+   const auto nodes_at = [](const NodalStiffness &body, double x, bool below)
+   {
+      Nodes found;
+      for (const auto &[node, place] : body.places)
+      {
+         const bool on =
+            below ? place[1] == 0 && (x < 0) == (place[0] < 0 || place[0] == 0) : place[0] == 0;
+         if (on || (below && place[1] == 0 && place[0] == 0)) { found.push_back(node); }
+      }
+      return found;
+   };
+   for (NodalStiffness *body : {&left, &right})
+   {
+      body->add_surface_traction("P", body->nodes_of("TOP"), Vector3d(0, -1, 0));
+   }
+   left.add_surface_traction("S", left.nodes_of("TOP"), Vector3d(0.05, 0, 0));
+   right.add_surface_traction("S", right.nodes_of("TOP"), Vector3d(-0.05, 0, 0));
+   const ContactSurface left_down = left.contact_surface(left.nodes_of("BOTTOM")),
+                        left_side = left.contact_surface(nodes_at(left, 0, false)),
+                        right_down = right.contact_surface(right.nodes_of("BOTTOM")),
+                        right_side = right.contact_surface(nodes_at(right, 0, false)),
+                        base_left = base.contact_surface(nodes_at(base, -1, true)),
+                        base_right = [&]
+   {
+      Nodes found;
+      for (const auto &[node, place] : base.places)
+      {
+         if (place[1] == 0 && place[0] >= 0) { found.push_back(node); }
+      }
+      return base.contact_surface(found);
+   }();
+   std::vector<CondensedBody> bodies = {
+      condense(left.body(), joined(std::vector<ContactSurface>{left_down, left_side})),
+      condense(right.body(), joined(std::vector<ContactSurface>{right_down, right_side})),
+      condense(base.body(), joined(std::vector<ContactSurface>{base_left, base_right}))};
+   const auto interface = [](const char *name, int one, const ContactSurface &first, int other,
+                             const ContactSurface &second)
+   {
+      Interface made;
+      made.name = name;
+      made.first.body = one;
+      made.first.surface = first;
+      made.second.body = other;
+      made.second.surface = second;
+      return made;
+   };
+   const std::vector<Interface> interfaces = {
+      interface("left foot", 0, left_down, 2, base_left),
+      interface("right foot", 1, right_down, 2, base_right),
+      interface("between", 0, left_side, 1, right_side)};
+   const Reduction reduction = reduce(bodies, interfaces);
+   // The two nodes of the edge where all three meet close a ring.
+   EXPECT_EQ(reduction.interfaces[2].in_rings.size(), 2U);
+   EXPECT_EQ(reduction.problem.nodes(), left_down.size() + right_down.size() + 2);
+   const ContactState state = pressed(reduction.problem, 0.3);
+   const MatrixXd on_left = reduction.contact_forces(0, state.q, state.p),
+                  on_right = reduction.contact_forces(1, state.q, state.p),
+                  on_base = reduction.contact_forces(2, state.q, state.p);
+   // Forces balance the loads, and the scene is its own mirror image.
+   EXPECT_LT((on_left.colwise().sum() - Eigen::RowVector3d(-0.05, 1, 0)).norm(), 1e-12);
+   EXPECT_LT((on_right.colwise().sum() - Eigen::RowVector3d(0.05, 1, 0)).norm(), 1e-12);
+   EXPECT_LT((on_base.colwise().sum() - Eigen::RowVector3d(0, -2, 0)).norm(), 1e-12);
+}
+
+TEST(Surfaces, ObstaclesMoveAsTheBodyWouldTheOtherWay)
+{
+   const double up = 0.01, aside = 0.002, turn = 0.003;
+   for (const int order : {1, 2})
+   {
+      for (const Solid solid : {Solid::hexahedra, Solid::tetrahedra})
+      {
+         const NodalStiffness body = hanging(solid, order);
+         // 1. The plane comes up, moves aside and turns about z while the top is held.
+         NodalStiffness held = body;
+         for (int c : {1, 2, 3}) { held.fix(held.nodes_of("TOP"), c); }
+         const CondensedBody condensed = on_surface(held, "BOTTOM");
+         Reduction moves =
+            reduce(condensed, gaps_to_plane(condensed.surface, {0, 0, 0}, {0, 1, 0}));
+         moves.add_obstacle_motion(
+            "U", [&](double, double y, double) { return aside - turn * y; },
+            [&](double x, double, double) { return up + turn * x; }, aside / 2);
+         const ContactState found = pressed(moves.problem, 0.3);
+         // 2. The plane rests, and the top does the opposite.
+         NodalStiffness other = body;
+         for (int node : other.nodes_of("TOP"))
+         {
+            const Vector3d x = other.place(node);
+            other.add_displacement("U", {node}, 1, -(aside - turn * x[1]));
+            other.add_displacement("U", {node}, 2, -(up + turn * x[0]));
+            other.add_displacement("U", {node}, 3, -aside / 2);
+         }
+         const CondensedBody rests = on_surface(other, "BOTTOM");
+         const Reduction still = reduce(rests, VectorXd::Zero(rests.nodes()));
+         const ContactState expected = pressed(still.problem, 0.3);
+         EXPECT_GT(expected.p.sum(), 1e-3);
+         EXPECT_LT(difference(found.p, expected.p), 1e-11);
+         EXPECT_LT(difference(found.q, expected.q), 1e-11);
+         // 3. A plate that is free to move up takes the force on it.
+         Reduction plate = reduce(condensed, VectorXd::Zero(condensed.nodes()));
+         plate.free_obstacles({{"P", 1, {{0, 0.0, 1.0}}}});
+         const ContactState carried = pressed(plate.problem, 0.3);
+         expect_relative(carried.p.sum(), 1, 1e-12);
+      }
+   }
+}
+
+TEST(Surfaces, CylindersAndHeightsAreAsFarAsClosedFormsSay)
+{
+   const NodalStiffness body = block({3, 1, 2}, {-1, 0.1, -1}, {2, 1, 2}, 1, 0.2);
+   const ContactSurface surface = body.contact_surface(body.nodes_of("BOTTOM"));
+   const VectorXd along = gaps_to_cylinder(surface, {0, -10, 3}, {0, 0, -2}, 10),
+                  bore = gaps_to_cylinder(surface, {0, 10, 0}, {1, 0, 0}, -10.5);
+   // Heights are of z; the block is turned so that its bottom looks along it.
+   Matrix3d turn;
+   turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+   const NodalStiffness turned =
+      block({3, 1, 2}, {-1, 0.1, -1}, {2, 1, 2}, 1, 0.2, Solid::hexahedra, turn);
+   const ContactSurface below = turned.contact_surface(turned.nodes_of("BOTTOM"));
+   const VectorXd wavy =
+      gaps_to_height(below, [](double x, double y) { return 0.02 * x * y - 0.01 * x; });
+   for (Eigen::Index i = 0; i < surface.size(); ++i)
+   {
+      const Vector3d &x = surface.nodes[i].position, &z = below.nodes[i].position;
+      EXPECT_NEAR(along[i], 0.1 + 10 - std::sqrt(100 - x[0] * x[0]), 1e-13);
+      EXPECT_NEAR(bore[i], 0.1 - 10 + std::sqrt(10.5 * 10.5 - x[2] * x[2]), 1e-13);
+      EXPECT_NEAR(wavy[i], 0.1 - 0.02 * z[0] * z[1] + 0.01 * z[0], 1e-13);
+   }
+   expect_input_error(
+      [&] {
+         gaps_to_cylinder(surface, {0, 0, 0}, {0, 1, 0}, 1);
+      },
+      "does not face the obstacle");
+   expect_input_error([&] { gaps_to_cylinder(surface, {0, 0, 0}, {0, 0, 0}, 1); }, "no axis");
+   expect_input_error([&] { gaps_to_height(below, [](double, double) { return HUGE_VAL; }); },
+                      "does not face the obstacle");
+}
+
+TEST(Surfaces, DecksOfAbaqusHaveSolidsAndTheirFaces)
+{
+   // One hexahedron of 8 and of 20 nodes, clamped on top, on its face S3.
+   for (const int order : {1, 2})
+   {
+      NodalStiffness body = block({1, 1, 1}, {0, 0, 0}, {2, 1, 3}, 7, 0.3, Solid::hexahedra,
+                                  Matrix3d::Identity(), order);
+      std::ofstream deck("surfaces_deck.inp"), matrix("surfaces_deck.mtx");
+      deck << "*NODE\n";
+      for (const auto &[node, place] : body.places)
+      {
+         deck << node + 1 << ", " << place[0] << ", " << place[1] << ", " << body.z[node]
+              << "\n";
+      }
+      deck << "*ELEMENT, TYPE=" << (order == 1 ? "C3D8" : "C3D20R") << ", ELSET=CUBE\n"
+           << "11, 1, 2, 4, 3, 5, 6, 8, 7";
+      for (int node = 8; order == 2 && node < 20; ++node)
+      {
+         deck << (node == 13 ? ",\n" : ", ") << node + 1;
+      }
+      deck << "\n*SURFACE, NAME=LOW\nCUBE, S3\n*NSET, NSET=UP\n";
+      for (int node : body.nodes_of("TOP")) { deck << node + 1 << "\n"; }
+      deck << "*STEP\n*BOUNDARY\nUP, 1, 3\n*CLOAD\n1, 3, 2.5\n*END STEP\n";
+      deck.close();
+      matrix.precision(17);
+      for (int row = 0; row < body.K.rows(); ++row)
+      {
+         for (NodalStiffness::Matrix::InnerIterator e(body.K, row); e; ++e)
+         {
+            if (e.col() > row) { continue; }
+            const NodeDof &one = body.dofs[row], &other = body.dofs[e.col()];
+            matrix << one.node + 1 << "," << one.direction << "," << other.node + 1 << ","
+                   << other.direction << "," << e.value() << "\n";
+         }
+      }
+      matrix.close();
+      const NodalStiffness read = read_stiffness("surfaces_deck.mtx");
+      EXPECT_EQ(read.formulation, Formulation::space);
+      EXPECT_EQ(read.faces.size(), 6U);
+      EXPECT_EQ(read.nodes_of("LOW").size(), order == 1 ? 4U : 8U);
+      for (int c : {1, 2, 3}) { body.fix(body.nodes_of("TOP"), c); }
+      body.add_forces("CLOAD1", {0}, 3, 2.5);
+      EXPECT_EQ(read.fixed.size(), body.fixed.size());
+      const CondensedBody expected = on_surface(body, "BOTTOM"),
+                          found = on_surface(read, "LOW");
+      EXPECT_LT(std::abs(found.S.trace() - expected.S.trace()), 1e-12 * expected.S.trace());
+      EXPECT_LT(std::abs(found.S.norm() - expected.S.norm()), 1e-12 * expected.S.norm());
+      // The same nodes, perhaps in another order.
+      for (Eigen::Index i = 0; i < expected.nodes(); ++i)
+      {
+         Eigen::Index k = 0;
+         while ((found.surface.nodes[k].position - expected.surface.nodes[i].position).norm() >
+                1e-12)
+         {
+            ASSERT_LT(++k, found.nodes());
+         }
+         EXPECT_NEAR(found.patterns.at(0).p[k], expected.patterns.at(0).p[i], 1e-12);
+      }
+   }
+   std::ofstream("surfaces_deck.inp", std::ios::app) << "*SURFACE, NAME=NO\nCUBE, S7\n";
+   expect_input_error([] { read_stiffness("surfaces_deck.mtx"); }, "of solids to S6");
+   std::filesystem::remove("surfaces_deck.inp");
+   std::filesystem::remove("surfaces_deck.mtx");
+}
+
+TEST(Surfaces, TwoBodiesAreOneCondensedInRelativeCoordinates)
+{
+   // The upper body's contact nodes are the lower one's and what they are apart. All else is
+   // eliminated by a dense factor of both bodies at once.
+   for (const int order : {1, 2})
+   {
+      NodalStiffness upper = block({2, 1, 2}, {0, 0, 0}, {2, 1, 2}, 1, 0.3, Solid::wedges,
+                                   askew, order),
+                     lower = block({2, 1, 2}, {0, -1, 0}, {2, 1, 2}, 4, 0.2, Solid::wedges,
+                                   askew, order);
+      for (int c : {1, 2, 3}) { lower.fix(lower.nodes_of("BOTTOM"), c); }
+      upper.add_surface_traction("P", upper.nodes_of("TOP"), Vector3d(0.3, -1, 0.2));
+      const CondensedBody above = on_surface(upper, "BOTTOM"), below = on_surface(lower, "TOP");
+      const Pairing pairs = pair_surfaces(above.surface, below.surface);
+      const ReducedProblem problem = reduce(above, below, pairs).problem;
+      const ContactSurface &surface = above.surface;
+      const auto n = surface.size(), one = upper.K.rows(), both = one + lower.K.rows();
+      // 1. Coordinates: 3 n apart, then the lower body's that are free, then the upper one's.
+      const MatrixXd B = surface.at_nodes(MatrixXd::Identity(n, n));
+      std::vector<bool> contact(one, false);
+      std::vector<Eigen::VectorXd> columns;
+      for (int c : {0, 1, 2})
+      {
+         for (Eigen::Index j = 0; j < n; ++j)
+         {
+            VectorXd column = VectorXd::Zero(both);
+            for (Eigen::Index i = 0; i < n; ++i)
+            {
+               column[surface.nodes[i].dofs[c]] = B(i, j);
+               contact[surface.nodes[i].dofs[c]] = true;
+            }
+            columns.push_back(column);
+         }
+      }
+      std::map<int, int> upper_of; // rows of the lower body that have one of the upper one
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         for (int c : {0, 1, 2})
+         {
+            upper_of[below.surface.nodes[pairs.partner[i]].dofs[c]] = surface.nodes[i].dofs[c];
+         }
+      }
+      for (int row = 0; row < lower.K.rows(); ++row)
+      {
+         if (std::binary_search(lower.fixed.begin(), lower.fixed.end(), row)) { continue; }
+         VectorXd column = VectorXd::Unit(both, one + row);
+         if (upper_of.count(row) == 1) { column[upper_of[row]] = 1; }
+         columns.push_back(column);
+      }
+      for (Eigen::Index row = 0; row < one; ++row)
+      {
+         if (!contact[row]) { columns.push_back(VectorXd::Unit(both, row)); }
+      }
+      const auto count = static_cast<Eigen::Index>(columns.size()), rest = count - 3 * n;
+      MatrixXd T(both, count), K = MatrixXd::Zero(both, both);
+      for (Eigen::Index k = 0; k < count; ++k) { T.col(k) = columns[k]; }
+      K.topLeftCorner(one, one) = MatrixXd(upper.K);
+      K.bottomRightCorner(both - one, both - one) = MatrixXd(lower.K);
+      VectorXd F = VectorXd::Zero(both);
+      F.head(one) = upper.loads[0].values;
+      const MatrixXd A = T.transpose() * K * T;
+      const VectorXd f = T.transpose() * F;
+      const Eigen::LDLT<MatrixXd> inner(A.bottomRightCorner(rest, rest));
+      const MatrixXd S =
+         A.topLeftCorner(3 * n, 3 * n) -
+         A.topRightCorner(3 * n, rest) * inner.solve(A.bottomLeftCorner(rest, 3 * n));
+      const VectorXd g =
+         f.head(3 * n) - A.topRightCorner(3 * n, rest) * inner.solve(f.tail(rest));
+      // 2. In the frames of the problem.
+      MatrixXd R = MatrixXd::Zero(3 * n, 3 * n);
+      const Reduction reduction = reduce(above, below, pairs);
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         for (int k = 0; k < 9; ++k)
+         {
+            R(k / 3 * n + i, k % 3 * n + i) = reduction.interfaces[0].frames(i, k);
+         }
+      }
+      EXPECT_LT(difference(problem.K, MatrixXd(R * S * R.transpose())), 1e-12);
+      VectorXd forces(3 * n);
+      forces << problem.patterns[0].q, problem.patterns[0].p;
+      EXPECT_LT(difference(forces, VectorXd(-R * g)), 1e-12);
+   }
 }

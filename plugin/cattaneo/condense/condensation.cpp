@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/condense/middles.hpp>
 #include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -12,6 +13,8 @@ namespace cattaneo
 
 namespace
 {
+
+using Eigen::Index;
 
 /// Puts rows at their positions among so many, and zeros elsewhere.
 void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index rows)
@@ -47,32 +50,6 @@ std::vector<int> align(ContactLine &line, const ContactDofs &contact)
    return rows;
 }
 
-/// The frame of a node, turned such that the directions that supports hold are among its axes.
-/// A support is refused if its angle to the surface is more than 10 degrees away from both 0
-/// and 90.
-Eigen::Matrix3d on_supports(const Eigen::Vector3d &normal, const std::array<bool, 3> &held,
-                            const std::string &where)
-{
-   const auto count = std::count(held.begin(), held.end(), true);
-   if (count == 0 || count == 3) { return frame_of(normal); }
-   // The axis that is held alone, or that alone is free.
-   const auto axis =
-      static_cast<int>(std::find(held.begin(), held.end(), count == 1) - held.begin());
-   const Eigen::Vector3d e = Eigen::Vector3d::Unit(axis);
-   const double along = normal.dot(e), most = std::sin(10 * std::acos(-1.0) / 180);
-   const bool across = std::abs(along) <= most;
-   require(across || normal.cross(e).norm() <= most, "condense: a support holds ",
-           count == 1 ? "one component" : "two components", " of the contact node at ", where,
-           ", and its angle to the surface must be within 10 degrees of 0 or 90");
-   const Eigen::Vector3d n = across ? Eigen::Vector3d((normal - along * e).normalized())
-                                    : Eigen::Vector3d(std::copysign(1.0, along) * e);
-   // The support holds the normal, or all but the normal, so both tangents are equivalent.
-   if (!across) { return frame_of(n); }
-   Eigen::Matrix3d frame;
-   frame << e.transpose(), n.cross(e).transpose(), n.transpose();
-   return frame;
-}
-
 /// Turns the frames of nodes onto their supports. Returns the rows, in these frames, that the
 /// supports hold.
 std::vector<int> align(ContactSurface &surface, const std::vector<int> &held)
@@ -84,8 +61,8 @@ std::vector<int> align(ContactSurface &surface, const std::vector<int> &held)
    for (int i = 0; i < n; ++i)
    {
       SurfaceNode &node = surface.nodes[i];
-      node.frame = on_supports(node.normal(), components[i],
-                               place_text(node.position, Formulation::space));
+      node.frame =
+         on_supports(node.frame, components[i], place_text(node.position, Formulation::space));
       for (int k = 0; k < 3; ++k)
       {
          if (lies_in(node.frame.row(k), components[i])) { rows.push_back(k * n + i); }
@@ -228,6 +205,29 @@ void refuse_motion(const Trace &trace, int position, const std::string &how)
 namespace
 {
 
+/// InputError if a support holds a component of the middle of an edge whose ends it leaves
+/// free: it would be a relation between unknowns (ContactSurface).
+void require_ends_held(const ContactSurface &surface, const std::vector<int> &held)
+{
+   const auto n = static_cast<int>(surface.size());
+   for (int position : held)
+   {
+      const SurfaceNode &node = surface.nodes[position % n];
+      for (Index end : node.between)
+      {
+         const auto its = static_cast<int>(end) + position / n * n;
+         require(
+            end < 0 || std::binary_search(held.begin(), held.end(), its),
+            "condense: a support holds component ",
+            component_name(Formulation::space, position / n), " of the contact node at ",
+            place_text(node.position, Formulation::space),
+            ", the middle of an edge, and not of the end of the edge at ",
+            place_text(surface.nodes[std::max<Index>(end, 0)].position, Formulation::space),
+            ": it must hold both ends as well");
+      }
+   }
+}
+
 /// The results of a condensation in the frames of the body's trace, which are turned to its
 /// supports.
 CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads,
@@ -242,6 +242,13 @@ CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads
       spread(found.S, free, rows);
       spread(found.free.contact, free, rows);
       spread(found.clamped.forces, free, rows);
+   }
+   // From nodes to the unknowns of the trace.
+   if (const Middles middles(result.surface); !middles.none())
+   {
+      middles.stiffness_to_unknowns(found.S);
+      middles.forces_to_unknowns(found.clamped.forces);
+      middles.to_unknowns(found.free.contact);
    }
    result.counters = found.counters;
    result.solver = std::move(found.solver);
@@ -303,6 +310,7 @@ CondensedBody in_local_frames(const ContactSurface &surface, const std::vector<B
    CondensedBody result;
    result.line.formulation = Formulation::space;
    result.surface = surface;
+   require_ends_held(surface, contact.held);
    if (!contact.held.empty()) { result.held = align(result.surface, contact.held); }
    return in_frames(std::move(result), loads, contact, std::move(found));
 }

@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/condense/middles.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
@@ -18,7 +19,9 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd &u,
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
    ++counters.field_recoveries;
-   const Eigen::VectorXd contact = frames_of(*this).transposed().rows(u);
+   Eigen::MatrixXd all = frames_of(*this).transposed().rows(u);
+   Middles(surface).to_nodes(all);
+   const Eigen::VectorXd contact = all;
    return solver->recover(contact(free_positions()), multipliers, counters);
 }
 
@@ -79,6 +82,12 @@ double CondensedBody::error_estimate()
    }
    const std::vector<int> free = free_positions();
    Eigen::MatrixXd stiffness = back.both(S / thickness);
+   if (const Middles middles(surface); !middles.none())
+   {
+      middles.stiffness_to_nodes(stiffness);
+      middles.to_nodes(motions);
+      if (motions.cols() > 0) { motions = thin_qr(motions).Q; }
+   }
    if (!held.empty()) { stiffness = stiffness(free, free).eval(); }
    return solver->error(stiffness, motions(free, Eigen::all), counters);
 }
@@ -103,7 +112,7 @@ void CondensedBody::thicken(double times)
 
 Eigen::MatrixXd CondensedBody::rigid_motions(const Eigen::Vector3d &centre) const
 {
-   const Eigen::MatrixX3d at = places();
+   const Eigen::MatrixX3d at = surface.size() > 0 ? surface.points() : places();
    const Eigen::Index n = at.rows();
    if (line.formulation == Formulation::torsion) { return at.col(0); }
    const int dimension = cattaneo::dimension(line.formulation);
@@ -133,6 +142,18 @@ bool CondensedBody::moves(Eigen::Index node, int component) const
 
 bool CondensedBody::holds(Eigen::Index node, int component) const
 {
+   if (line.formulation == Formulation::space)
+   {
+      // Frames have the axes that supports hold.
+      double part = 0;
+      for (int k = 0; k < 3; ++k)
+      {
+         const auto row = static_cast<int>(node + k * surface.size());
+         const double along = surface.nodes[node].frame(k, component);
+         part += std::binary_search(held.begin(), held.end(), row) ? along * along : 0;
+      }
+      return part > 0.5;
+   }
    const bool along = nearest_axis(line.nodes[node].tangent) == component;
    const auto row = static_cast<int>(along ? node : node + line.size());
    return std::binary_search(held.begin(), held.end(), row);

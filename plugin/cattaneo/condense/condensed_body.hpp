@@ -93,7 +93,8 @@ public:
    /// its normal, unless supports hold one of its components. In space 3 × 3: its tangents and
    /// its normal.
    Eigen::MatrixXd directions(Eigen::Index node) const;
-   /// Do supports hold a component (0: x or r, 1: y or z) of a node? Not for torsion.
+   /// Do supports hold a component (0: x or r, 1: y or z, in space 2: z) of a node? Not for
+   /// torsion.
    bool holds(Eigen::Index node, int component) const;
    /// Does a load move a component (0: x or r, 1: y or z) of a node?
    bool moves(Eigen::Index node, int component) const;

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/condense/contact_surface.hpp>
+#include <cattaneo/condense/middles.hpp>
 #include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -24,41 +26,129 @@ struct FaceShare
    Vector3d area{0, 0, 0};
 };
 
-/// Of the nodes of a plane triangle, or of a bilinear quadrilateral by Gauss's rule.
+std::size_t corners_of(const std::size_t nodes)
+{
+   return nodes == 3 || nodes == 6 ? 3 : 4;
+}
+
+/// The functions of a face at 0 <= s, t <= 1 (of a triangle s + t <= 1), and in columns 1 and 2
+/// their derivatives.
+using FaceFunctions = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 9, 3>;
+
+FaceFunctions triangle_functions(std::size_t nodes, double s, double t)
+{
+   // Areas of the three parts, with their derivatives.
+   const double L[3][3] = {{1 - s - t, -1, -1}, {s, 1, 0}, {t, 0, 1}};
+   FaceFunctions of(static_cast<Index>(nodes), 3);
+   for (int a = 0; a < 3; ++a)
+   {
+      const auto &own = L[a], &next = L[(a + 1) % 3];
+      if (nodes == 3)
+      {
+         of.row(a) << own[0], own[1], own[2];
+         continue;
+      }
+      const double slope = 4 * own[0] - 1;
+      of.row(a) << own[0] * (2 * own[0] - 1), slope * own[1], slope * own[2];
+      of.row(3 + a) << 4 * own[0] * next[0], 4 * (own[1] * next[0] + own[0] * next[1]),
+         4 * (own[2] * next[0] + own[0] * next[2]);
+   }
+   return of;
+}
+
+FaceFunctions quadrilateral_functions(std::size_t nodes, double s, double t)
+{
+   // Of one direction, with derivatives: linear ones, or quadratic ones of ends and middle.
+   const auto line = [nodes](double x)
+   {
+      Eigen::Matrix<double, 3, 2> of;
+      if (nodes == 4) { of << 1 - x, -1, x, 1, 0, 0; }
+      else
+      {
+         of << (1 - x) * (1 - 2 * x), 4 * x - 3, x * (2 * x - 1), 4 * x - 1, 4 * x * (1 - x),
+            4 - 8 * x;
+      }
+      return of;
+   };
+   const auto along = line(s), across = line(t);
+   // Which of the two lines' functions a node has: corners, middles, middle of the face.
+   const int place[9][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0},
+                            {1, 2}, {2, 1}, {0, 2}, {2, 2}};
+   const std::size_t all = nodes == 4 ? 4 : 9;
+   FaceFunctions of(static_cast<Index>(all), 3);
+   for (std::size_t a = 0; a < all; ++a)
+   {
+      const int i = place[a][0], j = place[a][1];
+      of.row(static_cast<Index>(a)) << along(i, 0) * across(j, 0), along(i, 1) * across(j, 0),
+         along(i, 0) * across(j, 1);
+   }
+   if (nodes != 8) { return of; }
+   // Without the middle of the face, whose displacement is that of the eight nodes.
+   FaceFunctions eight = of.topRows(8);
+   eight.topRows(4).rowwise() -= 0.25 * of.row(8);
+   eight.bottomRows(4).rowwise() += 0.5 * of.row(8);
+   return eight;
+}
+
+/// Of the nodes of a face, by Gauss's rule: exact of plane faces with straight edges.
 std::vector<FaceShare> shares_of(const std::vector<Vector3d> &x)
 {
    std::vector<FaceShare> shares(x.size());
-   if (x.size() == 3)
+   const QuadratureRule &rule = gauss_rule(5);
+   const bool triangle = corners_of(x.size()) == 3;
+   for (Index i = 0; i < rule.points.size(); ++i)
    {
-      const Vector3d area = (x[1] - x[0]).cross(x[2] - x[0]) / 6;
-      for (FaceShare &each : shares) { each = {area.norm(), area}; }
-      return shares;
-   }
-   // Three points along each side integrate φ times the area of a plane face exactly.
-   const double off = std::sqrt(0.6), points[] = {-off, 0, off},
-                weights[] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-   const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-   for (int i = 0; i < 3; ++i)
-   {
-      for (int j = 0; j < 3; ++j)
+      for (Index j = 0; j < rule.points.size(); ++j)
       {
-         const double s = points[i], t = points[j];
+         // A triangle is a square of which one side is a point.
+         const double s = rule.points[i], narrow = triangle ? 1 - s : 1,
+                      t = narrow * rule.points[j],
+                      weight = narrow * rule.weights[i] * rule.weights[j];
+         const FaceFunctions of = triangle ? triangle_functions(x.size(), s, t)
+                                           : quadrilateral_functions(x.size(), s, t);
          Vector3d along(0, 0, 0), across(0, 0, 0);
-         for (int a = 0; a < 4; ++a)
+         for (std::size_t a = 0; a < x.size(); ++a)
          {
-            along += 0.25 * corner[a][0] * (1 + corner[a][1] * t) * x[a];
-            across += 0.25 * corner[a][1] * (1 + corner[a][0] * s) * x[a];
+            along += of(static_cast<Index>(a), 1) * x[a];
+            across += of(static_cast<Index>(a), 2) * x[a];
          }
-         const Vector3d area = weights[i] * weights[j] * along.cross(across);
-         for (int a = 0; a < 4; ++a)
+         const Vector3d area = weight * along.cross(across);
+         for (std::size_t a = 0; a < x.size(); ++a)
          {
-            const double phi = 0.25 * (1 + corner[a][0] * s) * (1 + corner[a][1] * t);
+            const double phi = of(static_cast<Index>(a), 0);
             shares[a].weight += phi * area.norm();
             shares[a].area += phi * area;
          }
       }
    }
    return shares;
+}
+
+/// The number of the edge whose middle is the nearest to that of a face's edge; that edge
+/// itself unless nodes are out of order.
+std::size_t nearest_edge(const std::vector<Vector3d> &x, std::size_t edge)
+{
+   const std::size_t corners = corners_of(x.size());
+   std::size_t nearest = edge;
+   const auto off = [&](std::size_t e)
+   { return (x[corners + edge] - 0.5 * (x[e] + x[(e + 1) % corners])).norm(); };
+   for (std::size_t e = 0; e < corners; ++e)
+   {
+      if (off(e) < 0.999 * off(nearest)) { nearest = e; }
+   }
+   return nearest;
+}
+
+/// Nodes of a face the other way round.
+void turn_round(std::vector<Index> &face)
+{
+   const auto corners = static_cast<Index>(corners_of(face.size()));
+   std::reverse(face.begin(), face.begin() + corners);
+   // The edge from the last corner to the first stays the last.
+   if (face.size() > 4)
+   {
+      std::reverse(face.begin() + corners, face.begin() + 2 * corners - 1);
+   }
 }
 
 } // namespace
@@ -75,6 +165,41 @@ Eigen::VectorXd ContactSurface::weights() const
    Eigen::VectorXd all(size());
    for (Index i = 0; i < size(); ++i) { all[i] = nodes[i].weight; }
    return all;
+}
+
+Eigen::MatrixX3d ContactSurface::points() const
+{
+   return of_nodes(positions());
+}
+
+bool ContactSurface::has_middles() const
+{
+   return std::any_of(nodes.begin(), nodes.end(),
+                      [](const SurfaceNode &node) { return node.between[0] >= 0; });
+}
+
+Eigen::MatrixXd ContactSurface::at_nodes(Eigen::MatrixXd unknowns) const
+{
+   Middles(*this).to_nodes(unknowns);
+   return unknowns;
+}
+
+Eigen::MatrixXd ContactSurface::of_nodes(Eigen::MatrixXd values) const
+{
+   Middles(*this).to_unknowns(values);
+   return values;
+}
+
+Eigen::MatrixXd ContactSurface::forces_at_nodes(Eigen::MatrixXd on_unknowns) const
+{
+   Middles(*this).forces_to_nodes(on_unknowns);
+   return on_unknowns;
+}
+
+Eigen::MatrixXd ContactSurface::forces_of_nodes(Eigen::MatrixXd on_nodes) const
+{
+   Middles(*this).forces_to_unknowns(on_nodes);
+   return on_nodes;
 }
 
 void ContactSurface::validate() const
@@ -94,6 +219,14 @@ void ContactSurface::validate() const
                  std::isfinite(node.spacing),
               where, " has the weight ", node.weight, " and the spacing ", node.spacing,
               ", both must be positive");
+      for (Index end : node.between)
+      {
+         require(end == node.between[0] || node.between[0] >= 0, where,
+                 " is in the middle of an edge with one end, must have two or none");
+         require(end >= -1 && end < size() && (end < 0 || nodes[end].between[0] < 0), where,
+                 " is in the middle of an edge that ends at node ", end,
+                 ", must end at corners from 0 to ", size() - 1);
+      }
    }
    for (const std::vector<Index> &face : faces)
    {
@@ -133,10 +266,12 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
    for (std::size_t f = 0; f < faces.size(); ++f)
    {
       const std::vector<int> &face = faces[f];
-      require(face.size() == 3 || face.size() == 4, where, ": face ", f, " has ", face.size(),
-              " nodes, must have 3 or 4");
+      const std::size_t count = face.size(), corners = corners_of(count);
+      require(count == 3 || count == 4 || count == 6 || count == 8 || count == 9, where,
+              ": face ", f, " has ", count, " nodes, must have 3, 4, 6, 8 or 9");
+      // 1. Its nodes, those that are new among them.
       std::vector<Index> its;
-      std::vector<Vector3d> corners;
+      std::vector<Vector3d> x;
       for (int id : face)
       {
          const auto [at, is_new] = number.emplace(id, surface.size());
@@ -148,32 +283,53 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
             area.emplace_back(0, 0, 0);
          }
          its.push_back(at->second);
-         corners.push_back(surface.nodes[at->second].position);
+         x.push_back(surface.nodes[at->second].position);
       }
-      const std::vector<FaceShare> shares = shares_of(corners);
+      // 2. Its area, and which way it turns.
+      const std::vector<FaceShare> shares = shares_of(x);
       Vector3d whole(0, 0, 0);
       double size = 0;
       for (const FaceShare &each : shares) { whole += each.area; }
-      for (const Vector3d &corner : corners)
-      {
-         size = std::max(size, (corner - corners[0]).squaredNorm());
-      }
+      for (const Vector3d &place : x) { size = std::max(size, (place - x[0]).squaredNorm()); }
       require(whole.norm() > 1e-12 * size, where, ": face ", f, " of the node at ",
-              place_text(corners[0], Formulation::space), " has no area");
+              place_text(x[0], Formulation::space), " has no area");
       const bool turned = whole.dot(inside(f)) < 0;
-      for (std::size_t a = 0; a < face.size(); ++a)
+      for (std::size_t a = 0; a < count; ++a)
       {
          SurfaceNode &own = surface.nodes[its[a]];
          own.weight += shares[a].weight;
          area[its[a]] += turned ? Vector3d(-shares[a].area) : shares[a].area;
-         for (std::size_t b = 0; b < face.size(); ++b)
+         for (std::size_t b = 0; b < count; ++b)
          {
-            const double apart = (corners[b] - corners[a]).norm();
+            const double apart = (x[b] - x[a]).norm();
             if (b != a) { own.spacing = std::min(own.spacing, apart); }
          }
       }
-      if (turned) { std::reverse(its.begin(), its.end()); }
+      // 3. The middles of its edges, whose functions are not positive in the mean.
+      for (std::size_t e = 0; e < corners && count > 4; ++e)
+      {
+         const std::size_t next = (e + 1) % corners, nearest = nearest_edge(x, e);
+         require(nearest == e, where, ": node ", face[corners + e], " of face ", f,
+                 " is not between its corners ", face[e], " and ", face[next],
+                 ", but nearest to the middle of ", face[nearest], " and ",
+                 face[(nearest + 1) % corners],
+                 ": corners come first, then the middle of each edge from the first on");
+         if (count != 9) { surface.nodes[its[corners + e]].between = {its[e], its[next]}; }
+      }
+      if (turned) { turn_round(its); }
       surface.faces.push_back(std::move(its));
+   }
+   // 4. Weights and normals of the unknowns.
+   Eigen::MatrixXd sums(surface.size(), 4);
+   for (Index i = 0; i < surface.size(); ++i)
+   {
+      sums.row(i) << surface.nodes[i].weight, area[i].transpose();
+   }
+   sums = surface.forces_of_nodes(std::move(sums));
+   for (Index i = 0; i < surface.size(); ++i)
+   {
+      surface.nodes[i].weight = sums(i, 0);
+      area[i] = sums.row(i).tail(3);
    }
    for (Index i = 0; i < surface.size(); ++i)
    {
@@ -185,6 +341,48 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
    }
    surface.validate();
    return surface;
+}
+
+ContactSurface joined(const std::vector<ContactSurface> &surfaces)
+{
+   require(!surfaces.empty(), "joined: there is no contact surface, must be one at least");
+   ContactSurface made;
+   std::map<std::array<int, 3>, Index> number;
+   for (const ContactSurface &surface : surfaces)
+   {
+      surface.validate();
+      const Eigen::VectorXd areas = surface.forces_at_nodes(surface.weights()); // ∫N dA
+      std::vector<Index> its;
+      for (Index i = 0; i < surface.size(); ++i)
+      {
+         const SurfaceNode &node = surface.nodes[i];
+         const auto [at, is_new] = number.emplace(node.dofs, made.size());
+         its.push_back(at->second);
+         if (is_new)
+         {
+            made.nodes.push_back(node);
+            made.nodes.back().weight = 0;
+            made.nodes.back().between = {-1, -1};
+         }
+         SurfaceNode &own = made.nodes[at->second];
+         own.weight += areas[i];
+         own.spacing = std::min(own.spacing, node.spacing);
+      }
+      for (Index i = 0; i < surface.size(); ++i)
+      {
+         const std::array<Index, 2> &ends = surface.nodes[i].between;
+         if (ends[0] >= 0) { made.nodes[its[i]].between = {its[ends[0]], its[ends[1]]}; }
+      }
+      for (std::vector<Index> face : surface.faces)
+      {
+         for (Index &node : face) { node = its[node]; }
+         made.faces.push_back(std::move(face));
+      }
+   }
+   const Eigen::VectorXd weights = made.forces_of_nodes(made.weights());
+   for (Index i = 0; i < made.size(); ++i) { made.nodes[i].weight = weights[i]; }
+   made.validate();
+   return made;
 }
 
 } // namespace cattaneo

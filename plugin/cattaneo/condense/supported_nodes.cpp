@@ -1,5 +1,6 @@
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/condense/supported_nodes.hpp>
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <map>
@@ -148,6 +149,46 @@ void meet_supports(ContactLine &line, const CondensedBody &body)
       }
    }
    meet_supports(line, held, moved);
+}
+
+Eigen::Matrix3d on_supports(const Eigen::Matrix3d &frame, const std::array<bool, 3> &held,
+                            const std::string &where)
+{
+   const auto count = std::count(held.begin(), held.end(), true);
+   if (count == 0 || count == 3) { return frame; }
+   const Eigen::Vector3d normal = frame.row(2);
+   // The axis that is held alone, or that alone is free.
+   const auto axis =
+      static_cast<int>(std::find(held.begin(), held.end(), count == 1) - held.begin());
+   const Eigen::Vector3d e = Eigen::Vector3d::Unit(axis);
+   const double along = normal.dot(e), most = std::sin(10 * std::acos(-1.0) / 180);
+   const bool across = std::abs(along) <= most;
+   require(across || normal.cross(e).norm() <= most, "condense: a support holds ",
+           count == 1 ? "one component" : "two components", " of the contact node at ", where,
+           ", and its angle to the surface must be within 10 degrees of 0 or 90");
+   const Eigen::Vector3d n = across ? Eigen::Vector3d((normal - along * e).normalized())
+                                    : Eigen::Vector3d(std::copysign(1.0, along) * e);
+   // The support holds the normal, or all but the normal, so both tangents are equivalent.
+   if (!across) { return frame_of(n); }
+   Eigen::Matrix3d made;
+   made << e.transpose(), n.cross(e).transpose(), n.transpose();
+   return made;
+}
+
+void meet_supports(ContactSurface &surface, const CondensedBody &body)
+{
+   if (body.held.empty()) { return; }
+   std::map<std::array<int, 3>, Index> number;
+   for (Index k = 0; k < body.surface.size(); ++k) { number[body.surface.nodes[k].dofs] = k; }
+   for (SurfaceNode &node : surface.nodes)
+   {
+      const auto found = number.find(node.dofs);
+      if (found == number.end()) { continue; }
+      const Index k = found->second;
+      node.frame =
+         on_supports(node.frame, {body.holds(k, 0), body.holds(k, 1), body.holds(k, 2)},
+                     place_text(node.position, Formulation::space));
+   }
 }
 
 } // namespace cattaneo

@@ -44,6 +44,19 @@ std::size_t corners_of(const std::string &type)
    return nodes == 3 || nodes == 6 ? 3 : nodes == 4 || nodes == 8 ? 4 : 0;
 }
 
+/// Nodes of a solid by its type in capitals, C3D8 or C3D20R; 0 of another.
+std::size_t nodes_of_solid(const std::string &type)
+{
+   if (type.substr(0, 3) != "C3D") { return 0; }
+   std::size_t nodes = 0, k = 3;
+   for (; k < type.size() && std::isdigit(static_cast<unsigned char>(type[k])); ++k)
+   {
+      nodes = 10 * nodes + static_cast<std::size_t>(type[k] - '0');
+   }
+   static const std::set<std::size_t> known = {4, 6, 8, 10, 15, 20};
+   return known.count(nodes) ? nodes : 0;
+}
+
 /// A side of an element that a surface names, -1: all of its outer ones.
 struct Face
 {
@@ -514,6 +527,9 @@ void DeckReader::element(LineReader &in)
    made.type = keyword_.parameter("TYPE");
    made.place = place(in);
    made.corners = corners_of(made.type);
+   const std::size_t of_solid =
+      use_ == DeckUse::stiffness ? nodes_of_solid(made.type) : std::size_t(0);
+   made.is_solid = of_solid > 0;
    in.add_integers(made.nodes, "a number of *ELEMENT");
    while (trimmed(in.line()).back() == ',' && in.next())
    {
@@ -531,15 +547,18 @@ void DeckReader::element(LineReader &in)
    if (!set.empty()) { deck.element_sets[set].push_back(deck.elements.size()); }
    in.require(made.corners != 2 || made.nodes.size() > 1, "element ", made.number, " is a ",
               made.type, " of one node, must have two or three");
-   if (made.corners > 2)
+   if (made.corners > 2 || made.is_solid)
    {
-      const auto count = static_cast<std::size_t>(made.type[3] - '0');
+      const auto count =
+         made.is_solid ? of_solid : static_cast<std::size_t>(made.type[3] - '0');
       in.require(made.nodes.size() == count, "element ", made.number, " is a ", made.type,
                  " of ", made.nodes.size(), " nodes, must have ", count);
-      const Formulation formulation =
-         made.type[1] == 'A' ? Formulation::axisymmetric : Formulation::plane;
-      in.require(!block.formulation || *block.formulation == formulation,
-                 "there are plane and axisymmetric elements, must be of one kind");
+      const Formulation formulation = made.is_solid         ? Formulation::space
+                                      : made.type[1] == 'A' ? Formulation::axisymmetric
+                                                            : Formulation::plane;
+      in.require(!block.formulation || *block.formulation == formulation, "there are ",
+                 name(block.formulation.value_or(formulation)), " elements and those of ",
+                 made.type, ", must be of one kind: plane, axisymmetric or solid");
       block.formulation = formulation;
       for (int node : made.nodes)
       {
@@ -708,8 +727,9 @@ void DeckReader::surface(const LineReader &in, const std::vector<std::string_vie
    if (fields.size() > 1)
    {
       const std::string label = upper_case(fields[1]);
-      in.require(label.size() == 2 && label[0] == 'S' && label[1] >= '1' && label[1] <= '4',
-                 "face '", fields[1], "' of surface '", name, "', must be S1 to S4");
+      in.require(label.size() == 2 && label[0] == 'S' && label[1] >= '1' && label[1] <= '6',
+                 "face '", fields[1], "' of surface '", name,
+                 "', must be S1 to S4, of solids to S6");
       side = label[1] - '1';
    }
    for (const auto &[block, elements] : elements_of(in, fields[0]))
@@ -820,6 +840,89 @@ Block &DeckReader::chosen(const std::string &file, const DeckPart &part)
    return *blocks[0];
 }
 
+/// Sets of an instance get their own names back, unless the assembly has a set with the same
+/// name.
+void tidy(Block &block)
+{
+   const auto tidy_sets = [&](auto &sets)
+   {
+      const std::string before = block.name + ".";
+      auto all = std::move(sets);
+      sets.clear();
+      for (auto &[name, members] : all)
+      {
+         drop_repeated(members);
+         const std::string plain =
+            name.rfind(before, 0) == 0 ? name.substr(before.size()) : name;
+         sets[plain == name || all.count(plain) == 0 ? plain : name] = std::move(members);
+      }
+   };
+   tidy_sets(block.deck.node_sets);
+   tidy_sets(block.deck.element_sets);
+   tidy_sets(block.deck.surfaces);
+}
+
+/// Third coordinates, outer faces and surfaces of a block of solids.
+void finish_in_space(const std::string &file, Block &block)
+{
+   InputDeck &deck = block.deck;
+   for (const auto &[node, at] : deck.places)
+   {
+      const auto found = block.z.find(node);
+      deck.z[node] = found == block.z.end() ? 0 : found->second;
+   }
+   const auto place = [&deck](int node)
+   {
+      const Eigen::Vector2d &at = deck.places.at(node);
+      return Eigen::Vector3d(at[0], at[1], deck.z.at(node));
+   };
+   std::vector<InputDeck::Nodes> solids;
+   std::vector<int> numbers;
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      if (!element.is_solid) { continue; }
+      solids.push_back(element.nodes);
+      numbers.push_back(element.number);
+   }
+   const auto corners_of_face = [](const InputDeck::Nodes &face)
+   {
+      InputDeck::Nodes corners(face.begin(),
+                               face.begin() + (face.size() == 3 || face.size() == 6 ? 3 : 4));
+      std::sort(corners.begin(), corners.end());
+      return corners;
+   };
+   std::map<InputDeck::Nodes, const InputDeck::Nodes *> outer;
+   try
+   {
+      deck.faces = outer_faces(solids, place, numbers);
+   }
+   catch (const InputError &error)
+   {
+      throw InputError("file '" + file + "': " + error.what());
+   }
+   for (const InputDeck::Nodes &face : deck.faces) { outer[corners_of_face(face)] = &face; }
+   for (const Face &face : block.faces)
+   {
+      const InputDeck::Element &element = deck.elements[face.element];
+      std::vector<InputDeck::Nodes> &its = deck.surfaces[face.surface];
+      const std::vector<InputDeck::Nodes> all =
+         element.is_solid ? faces_of(element.nodes) : std::vector<InputDeck::Nodes>();
+      require(face.side < static_cast<int>(all.size()), face.place, ": surface '", face.surface,
+              "' has face S", face.side + 1, " of element ", element.number, ", a ",
+              element.type, ", which has none");
+      for (int k = 0; k < static_cast<int>(all.size()); ++k)
+      {
+         if (face.side >= 0 && face.side != k) { continue; }
+         const auto found = outer.find(corners_of_face(all[k]));
+         require(face.side < 0 || found != outer.end(), face.place, ": face S", k + 1,
+                 " of element ", element.number, " of surface '", face.surface,
+                 "' is inside of the body, must be on its boundary");
+         if (found != outer.end()) { its.push_back(*found->second); }
+      }
+   }
+   tidy(block);
+}
+
 InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
 {
    Block &block = chosen(file, part);
@@ -834,6 +937,11 @@ InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
    }
    std::vector<InputDeck::Nodes> plane;
    std::vector<int> numbers, used;
+   if (deck.formulation == Formulation::space)
+   {
+      finish_in_space(file, block);
+      return std::move(deck);
+   }
    for (const InputDeck::Element &element : deck.elements)
    {
       used.insert(used.end(), element.nodes.begin(), element.nodes.end());
@@ -890,24 +998,7 @@ InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
          if (found != outer.end()) { edges.push_back(*found->second); }
       }
    }
-   // Sets of an instance get their own names back, unless the assembly has a set with the same
-   // name.
-   const auto tidy = [&](auto &sets)
-   {
-      const std::string before = block.name + ".";
-      auto all = std::move(sets);
-      sets.clear();
-      for (auto &[name, members] : all)
-      {
-         drop_repeated(members);
-         const std::string plain =
-            name.rfind(before, 0) == 0 ? name.substr(before.size()) : name;
-         sets[plain == name || all.count(plain) == 0 ? plain : name] = std::move(members);
-      }
-   };
-   tidy(deck.node_sets);
-   tidy(deck.element_sets);
-   tidy(deck.surfaces);
+   tidy(block);
    return std::move(deck);
 }
 
@@ -927,8 +1018,11 @@ void DeckReader::support(const LineReader &in, const std::vector<std::string_vie
 {
    in.require(fields.size() >= 2, "*BOUNDARY has ", fields.size(),
               " fields, must have a node or set and a direction");
-   static const std::map<std::string, std::array<int, 2>> words = {
-      {"ENCASTRE", {1, 2}}, {"PINNED", {1, 2}}, {"XSYMM", {1, 1}}, {"YSYMM", {2, 2}}};
+   static const std::map<std::string, std::array<int, 2>> words = {{"ENCASTRE", {1, 2}},
+                                                                   {"PINNED", {1, 2}},
+                                                                   {"XSYMM", {1, 1}},
+                                                                   {"YSYMM", {2, 2}},
+                                                                   {"ZSYMM", {3, 3}}};
    const auto word = words.find(upper_case(fields[1]));
    std::array<int, 2> directions{};
    double value = 0;
@@ -944,10 +1038,17 @@ void DeckReader::support(const LineReader &in, const std::vector<std::string_vie
    }
    in.require(directions[0] >= 1, "the direction of a support is ", directions[0],
               ", must be at least 1");
+   // Across the plane of a plane body nothing moves, and rotations are none of a solid's.
+   const bool in_space = home().formulation == Formulation::space;
+   if (in_space && word != words.end())
+   {
+      directions = word->first == "ZSYMM"                     ? std::array<int, 2>{3, 3}
+                   : directions[1] == 2 && directions[0] == 1 ? std::array<int, 2>{1, 3}
+                                                              : directions;
+   }
    for (int node : nodes_of_one(in, fields[0]))
    {
-      // Across the plane nothing moves.
-      for (int d = directions[0]; d <= std::min(directions[1], 2); ++d)
+      for (int d = directions[0]; d <= std::min(directions[1], in_space ? 3 : 2); ++d)
       {
          cards_.back().values.push_back({{node, d}, value});
       }

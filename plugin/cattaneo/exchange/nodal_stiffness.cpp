@@ -3,6 +3,7 @@
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/condense/boundary_segments.hpp>
 #include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/condense/middles.hpp>
 #include <cattaneo/condense/row_links.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
@@ -470,9 +471,10 @@ void NodalStiffness::add_surface_traction(const std::string &load, const Nodes &
 {
    const ContactSurface surface = contact_surface(nodes);
    Eigen::VectorXd &values = load_of(load, Control::force).values;
-   for (const SurfaceNode &node : surface.nodes)
+   const Eigen::VectorXd areas = surface.forces_at_nodes(surface.weights()); // ∫N dA
+   for (Index i = 0; i < surface.size(); ++i)
    {
-      for (int c : {0, 1, 2}) { values[node.dofs[c]] += node.weight * traction[c]; }
+      for (int c : {0, 1, 2}) { values[surface.nodes[i].dofs[c]] += areas[i] * traction[c]; }
    }
 }
 
@@ -705,7 +707,9 @@ NodalStiffness nodal_stiffness(const CondensedBody &body)
    const Index n = body.nodes();
    const int count = components(line.formulation);
    const Eigen::MatrixX3d places = body.places();
-   const Eigen::MatrixXd S = back.both(body.S);
+   const Middles middles(body.surface);
+   Eigen::MatrixXd S = back.both(body.S);
+   middles.stiffness_to_nodes(S);
    NodalStiffness result;
    result.name = body.name;
    result.formulation = line.formulation;
@@ -731,8 +735,9 @@ NodalStiffness nodal_stiffness(const CondensedBody &body)
    {
       Eigen::VectorXd forces(count * n);
       forces << pattern.q, pattern.p;
-      const Eigen::VectorXd loads = -back.rows(forces);
-      result.loads.push_back({pattern.name, Control::force, loads(rows)});
+      Eigen::MatrixXd loads = -back.rows(forces);
+      middles.forces_to_nodes(loads);
+      result.loads.push_back({pattern.name, Control::force, loads(rows, 0)});
    }
    return result;
 }

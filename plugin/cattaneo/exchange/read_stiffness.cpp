@@ -24,9 +24,15 @@ std::string dof_name(const NodeDof &dof)
    return "node " + std::to_string(dof.node) + " direction " + std::to_string(dof.direction);
 }
 
-/// A plane body has no rotations and no displacements off the plane.
-void require_plane(const LineReader &in, const NodeDof &dof)
+/// A plane body has no rotations and no displacements off the plane, a solid no rotations.
+void require_direction(const LineReader &in, const NodeDof &dof, Formulation formulation)
 {
+   if (formulation == Formulation::space)
+   {
+      in.require(dof.direction >= 1 && dof.direction <= 3, "direction ", dof.direction,
+                 " of node ", dof.node, ", must be 1, 2 or 3");
+      return;
+   }
    in.require(dof.direction == 1 || dof.direction == 2, "direction ", dof.direction,
               " of node ", dof.node, ", must be 1 or 2",
               dof.direction == 3
@@ -35,40 +41,7 @@ void require_plane(const LineReader &in, const NodeDof &dof)
                  : "");
 }
 
-// --- CalculiX ------------------------------------------------------------------------------
-
-void read_calculix(const std::string &file, NodalStiffness &rows)
-{
-   LineReader dofs(std::filesystem::path(file).replace_extension(".dof").string());
-   while (dofs.next())
-   {
-      const std::string_view text = trimmed(dofs.line());
-      const std::size_t point = text.find('.');
-      dofs.require(point != std::string_view::npos, "'", text, "', must be node.direction");
-      const NodeDof dof{dofs.integer(text.substr(0, point), "a node"),
-                        dofs.integer(text.substr(point + 1), "a direction")};
-      require_plane(dofs, dof);
-      rows.dofs.push_back(dof);
-   }
-   const auto size = static_cast<int>(rows.dofs.size());
-   SymmetricEntries entries;
-   LineReader in(file);
-   while (in.next())
-   {
-      const std::vector<std::string_view> fields = in.words();
-      in.require(fields.size() == 3, "'", trimmed(in.line()),
-                 "', must be row, column and value");
-      const int row = in.integer(fields[0], "a row"),
-                column = in.integer(fields[1], "a column");
-      in.require(std::min(row, column) >= 1 && std::max(row, column) <= size, "entry (", row,
-                 ", ", column, "), must be within ", size, "×", size, ", which '", dofs.file(),
-                 "' has");
-      entries.add(row - 1, column - 1, in.number(fields[2], "an entry"));
-   }
-   rows.K = entries.matrix(size, file, [&](int row) { return dof_name(rows.dofs[row]); });
-}
-
-// --- ABAQUS --------------------------------------------------------------------------------
+// --- Rows that are no nodes' ---------------------------------------------------------------
 
 /// Eliminates internal rows, K_bb - K_bi K_ii⁻¹ K_ib. Of a support only a diagonal of 1 is
 /// left, because the true diagonal is lost: 1e36 was added to it.
@@ -125,7 +98,55 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
    rows.dofs = kept;
 }
 
-/// Which rows a matrix of FORMAT=COORDINATE has: both directions of each node that has an
+// --- CalculiX ------------------------------------------------------------------------------
+
+/// C3D8I has displacements of its own, which the matrix calls by numbers above those of all
+/// nodes.
+void read_calculix(const std::string &file, const InputDeck &deck, NodalStiffness &rows)
+{
+   LineReader dofs(std::filesystem::path(file).replace_extension(".dof").string());
+   while (dofs.next())
+   {
+      const std::string_view text = trimmed(dofs.line());
+      const std::size_t point = text.find('.');
+      dofs.require(point != std::string_view::npos, "'", text, "', must be node.direction");
+      const NodeDof dof{dofs.integer(text.substr(0, point), "a node"),
+                        dofs.integer(text.substr(point + 1), "a direction")};
+      require_direction(dofs, dof, rows.formulation);
+      rows.dofs.push_back(dof);
+   }
+   const auto size = static_cast<int>(rows.dofs.size());
+   SymmetricEntries entries;
+   LineReader in(file);
+   while (in.next())
+   {
+      const std::vector<std::string_view> fields = in.words();
+      in.require(fields.size() == 3, "'", trimmed(in.line()),
+                 "', must be row, column and value");
+      const int row = in.integer(fields[0], "a row"),
+                column = in.integer(fields[1], "a column");
+      in.require(std::min(row, column) >= 1 && std::max(row, column) <= size, "entry (", row,
+                 ", ", column, "), must be within ", size, "×", size, ", which '", dofs.file(),
+                 "' has");
+      entries.add(row - 1, column - 1, in.number(fields[2], "an entry"));
+   }
+   rows.K = entries.matrix(size, file, [&](int row) { return dof_name(rows.dofs[row]); });
+   bool own = false;
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      own = own || element.type == "C3D8I";
+   }
+   if (!own) { return; }
+   for (NodeDof &dof : rows.dofs)
+   {
+      if (rows.places.count(dof.node) == 0) { dof.node = -dof.node; }
+   }
+   drop(rows, std::vector<bool>(rows.dofs.size(), false), file);
+}
+
+// --- ABAQUS --------------------------------------------------------------------------------
+
+/// Which rows a matrix of FORMAT=COORDINATE has: all directions of each node that has an
 /// element, by the numbers of nodes.
 std::vector<NodeDof> numbered_rows(const InputDeck &deck)
 {
@@ -135,7 +156,10 @@ std::vector<NodeDof> numbered_rows(const InputDeck &deck)
       nodes.insert(element.nodes.begin(), element.nodes.end());
    }
    std::vector<NodeDof> rows;
-   for (int node : nodes) { rows.insert(rows.end(), {{node, 1}, {node, 2}}); }
+   for (int node : nodes)
+   {
+      for (int d = 1; d <= components(deck.formulation); ++d) { rows.push_back({node, d}); }
+   }
    return rows;
 }
 
@@ -200,7 +224,8 @@ void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalSti
             const int row = in.integer(fields[k], "a row");
             in.require(row >= 1 && row <= static_cast<int>(rows.dofs.size()), "row ", row,
                        ", must be from 1 to ", rows.dofs.size(),
-                       ", two for each node that has an element in the deck");
+                       components(deck.formulation) == 3 ? ", three" : ", two",
+                       " for each node that has an element in the deck");
             at[k] = row - 1;
             continue;
          }
@@ -208,7 +233,7 @@ void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalSti
                            in.integer(fields[2 * k + 1], "a direction")};
          in.require(dof.node != 0,
                     "node 0, must be positive (a node) or negative (an internal node)");
-         if (dof.node > 0) { require_plane(in, dof); }
+         if (dof.node > 0) { require_direction(in, dof, deck.formulation); }
          at[k] = number.emplace(dof, static_cast<int>(rows.dofs.size())).first->second;
          if (at[k] == static_cast<int>(rows.dofs.size()))
          {
@@ -296,7 +321,7 @@ void read_user_element(const std::string &file, NodalStiffness &rows)
                     ", behind the position of the first");
          for (std::size_t k = 1; k < numbers.size(); ++k)
          {
-            require_plane(in, {numbers[0], numbers[k]});
+            require_direction(in, {numbers[0], numbers[k]}, rows.formulation);
          }
          directions[numbers[0]].assign(numbers.begin() + 1, numbers.end());
       }
@@ -537,9 +562,10 @@ void add_cards(const std::vector<Card> &cards, const std::string &file, NodalSti
       const bool moves = card.control == Control::displacement;
       for (const auto &[at, value] : card.values)
       {
-         require(at.direction == 1 || at.direction == 2 || value == 0, "file '", file, "': '",
-                 card.name, "' loads ", dof_name(at),
-                 ", the direction of a force must be 1 or 2");
+         require(at.direction <= components(result.formulation) || value == 0, "file '", file,
+                 "': '", card.name, "' loads ", dof_name(at),
+                 ", the direction of a force must be ",
+                 components(result.formulation) == 3 ? "1, 2 or 3" : "1 or 2");
          const bool there = entries.has_row(at) && !(value != 0 && lost.count(at) == 1);
          result.supports_left_out = result.supports_left_out || (moves && !there);
          require(there || (moves ? value == 0 : held.count(at) == 1), "file '", file, "': '",
@@ -578,6 +604,8 @@ void take_nodes(InputDeck &deck, NodalStiffness &result)
    }
    result.formulation = deck.formulation;
    result.places = std::move(deck.places);
+   result.z = std::move(deck.z);
+   result.faces = std::move(deck.faces);
    result.sets = std::move(deck.node_sets);
    result.edges = std::move(deck.edges);
 }
@@ -600,12 +628,7 @@ void read_dofs(const std::string &file, NodalStiffness &result)
       [&](const LineReader &in, std::string_view node, std::string_view direction)
    {
       const NodeDof dof{in.integer(node, "a node"), in.integer(direction, "a direction")};
-      if (result.formulation != Formulation::space) { require_plane(in, dof); }
-      else
-      {
-         in.require(dof.direction >= 1 && dof.direction <= 3, "direction ", dof.direction,
-                    ", must be 1, 2 or 3");
-      }
+      require_direction(in, dof, result.formulation);
       return dof;
    };
    each_line(
@@ -678,7 +701,8 @@ void read_dofs(const std::string &file, NodalStiffness &result)
                            in.number(fields[4], "a value"));
             }
          }
-         else if (word == "face" && (fields.size() == 4 || fields.size() == 5))
+         else if (word == "face" && (fields.size() == 4 || fields.size() == 5 ||
+                                     fields.size() == 7 || fields.size() >= 9))
          {
             NodalStiffness::Nodes face;
             for (std::size_t k = 1; k < fields.size(); ++k)
@@ -828,7 +852,7 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
       const std::string deck = beside(".inp");
       InputDeck said = read_input_deck(deck, DeckUse::stiffness);
       take_nodes(said, result);
-      if (ending == ".sti") { read_calculix(matrix, result); }
+      if (ending == ".sti") { read_calculix(matrix, said, result); }
       else if (form == MtxForm::sparse) { read_abaqus_sparse(matrix, said, result); }
       else { read_user_element(matrix, result); }
       // Forces are those of the whole circumference already.

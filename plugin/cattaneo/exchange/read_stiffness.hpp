@@ -36,7 +36,7 @@ namespace cattaneo
 
     InputError, in one sentence with the file and the line or the entry, if the file is cut
     short, or contains numbers that are not finite, entries that are there twice or not
-    symmetric, rotations, or a third direction. */
+    symmetric, rotations, or a third direction of a plane body. */
 NodalStiffness read_stiffness(const std::string &matrix, const std::string &places = "");
 
 /// The file of the stiffness that a deck "job.inp" writes: "job.sti" of CalculiX, "job.mtx", or

@@ -2,7 +2,7 @@
 #include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/curve_gaps.hpp>
-#include <cattaneo/reduced/interface_rows.hpp>
+#include <cattaneo/reduced/surfaces.hpp>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -553,10 +553,9 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
    for (const CondensedBody &body : bodies)
    {
       require(body.line.formulation == bodies[0].line.formulation &&
-                 body.line.formulation != Formulation::torsion &&
-                 body.line.formulation != Formulation::space,
-              "reduce: the bodies must be all plane or all axisymmetric (add torsion to their "
-              "reduction, and reduce bodies in space by a pairing)");
+                 body.line.formulation != Formulation::torsion,
+              "reduce: the bodies must be all plane, all axisymmetric or all in space (add "
+              "torsion to their reduction)");
    }
    // A node of several interfaces belongs to the first of them. Ties come before all others,
    // because a node where a tie and a contact meet cannot open.
@@ -566,13 +565,22 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
                          [&](std::size_t k) { return interfaces[k].tied; });
    std::vector<std::vector<ContactRow>> rows_of_each(interfaces.size());
    met.resize(interfaces.size());
+   const bool in_space = bodies[0].line.formulation == Formulation::space;
    Slaves taken;
+   JoinedNodes joined;
    std::set<int> touched;
    for (const std::size_t k : order)
    {
-      RowsOfInterface made(interfaces[k], bodies);
-      made.add_to(rows_of_each[k], taken);
-      met[k] = std::move(made.met);
+      if (in_space)
+      {
+         rows_of_each[k] = rows_on_surfaces(interfaces[k], bodies, joined, met[k]);
+      }
+      else
+      {
+         RowsOfInterface made(interfaces[k], bodies);
+         made.add_to(rows_of_each[k], taken);
+         met[k] = std::move(made.met);
+      }
       touched.insert({interfaces[k].first.body, interfaces[k].second.body});
    }
    std::vector<ContactRow> rows;
@@ -587,6 +595,7 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
               "it out");
    }
    choose_dependents(bodies, rows);
+   if (in_space) { require_dependents(bodies, rows); }
    return rows;
 }
 

@@ -92,8 +92,9 @@ std::vector<Interface> paired_if_matching(const std::vector<CondensedBody> &bodi
              std::equal(line.nodes.begin(), line.nodes.end(), side.line.nodes.begin(),
                         [](const LineNode &i, const LineNode &j) { return i.dofs == j.dofs; });
    };
-   if (bodies.size() == 2 && interfaces.size() == 1 && !one.tied && !one.pairing &&
-       one.slave != SlaveSide::second && is_all(one.first, 0) && is_all(one.second, 1))
+   if (one.first.surface.size() == 0 && bodies.size() == 2 && interfaces.size() == 1 &&
+       !one.tied && !one.pairing && one.slave != SlaveSide::second && is_all(one.first, 0) &&
+       is_all(one.second, 1))
    {
       one.pairing = matching_nodes(bodies[0].line, bodies[1].line);
    }
@@ -125,17 +126,25 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    result.union_ = block.way_back;
    result.rows_ = std::move(rows);
    const std::vector<InterfaceReport::Moved> moved = block.moved;
-   take(std::move(block), 2, problem);
-   problem.weights = problem.arc_length = Eigen::VectorXd::Zero(n);
-   problem.position.resize(n, 2);
-   problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
+   const bool in_space = result.bodies[0].line.formulation == Formulation::space;
+   const int components = in_space ? 3 : 2;
+   take(std::move(block), components, problem);
+   problem.weights = Eigen::VectorXd::Zero(n);
+   if (!in_space) { problem.arc_length = Eigen::VectorXd::Zero(n); }
+   problem.position.resize(n, components);
+   problem.dofs = Eigen::MatrixXi::Constant(n, components * count, -1);
    std::array<Index, 2> next{0, 0}; // of nodes that are not tied, and of those that are
+   auto row = result.rows_->rows.begin();
    for (const MetInterface &interface : met)
    {
-      InterfaceReport report = report_of(interface);
+      InterfaceReport report =
+         in_space ? report_on_surfaces(interface, {row, row + interface.nodes()})
+                  : report_of(interface);
+      row += interface.nodes();
       report.first = next[report.tied];
       next[report.tied] += report.nodes;
-      if (!report.tied)
+      if (!report.tied && in_space) { add_surface_facts(problem, report.first, interface); }
+      else if (!report.tied)
       {
          add_facts(problem, report.first, report.matching, interface, met);
          double thickness = result.bodies[report.bodies[0]].thickness;
@@ -160,18 +169,17 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 {
    require(body.line.formulation != Formulation::torsion,
            "reduce: the body is of torsion, must be added to a reduction (add_torsion())");
-   require(body.line.formulation != Formulation::space,
-           "reduce: the body is in space, where gaps must be given for each contact node");
-   const Index n = body.line.size();
+   Interface contact;
+   contact.gap = gap;
+   contact.first = {0, body.line, body.surface};
+   const Index n =
+      body.line.formulation == Formulation::space ? body.S.rows() : body.line.size();
    for (int row : body.held)
    {
       require(row < n, "reduce: the contact node at ", body.line.nodes[row % n].position,
               " is fixed normal to the line, so that it cannot open: end the contact line "
               "end before it");
    }
-   Interface contact;
-   contact.first = {0, body.line};
-   contact.gap = gap;
    std::vector<CondensedBody> bodies;
    bodies.push_back(std::move(body));
    return reduce(std::move(bodies), std::vector<Interface>{contact});
@@ -179,27 +187,18 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing)
 {
-   if (body1.line.formulation == Formulation::space &&
-       body2.line.formulation == Formulation::space)
-   {
-      std::vector<CondensedBody> both;
-      both.push_back(std::move(body1));
-      both.push_back(std::move(body2));
-      std::vector<ContactRow> rows = rows_of_pairs(both, pairing);
-      return reduce_surfaces(std::move(both), std::move(rows), pairing.gap);
-   }
-   const Index n = body1.line.size();
+   const Index n = body1.nodes();
    require(body1.line.formulation == body2.line.formulation &&
               body1.line.formulation != Formulation::torsion,
-           "reduce: the bodies must be both plane or both axisymmetric (add torsion to their "
-           "reduction)");
-   require(body2.line.size() == n && static_cast<Index>(pairing.partner.size()) == n &&
+           "reduce: the bodies must be both plane, both axisymmetric or both in space (add "
+           "torsion to their reduction)");
+   require(body2.nodes() == n && static_cast<Index>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
-           "reduce: the contact lines have ", n, " and ", body2.line.size(),
+           "reduce: the contact lines or surfaces have ", n, " and ", body2.nodes(),
            " nodes and the pairing ", pairing.partner.size(), ", must be equally many");
    Interface contact;
-   contact.first = {0, body1.line};
-   contact.second = {1, body2.line};
+   contact.first = {0, body1.line, body1.surface};
+   contact.second = {1, body2.line, body2.surface};
    contact.pairing = pairing;
    std::vector<CondensedBody> bodies;
    bodies.push_back(std::move(body1));

@@ -12,6 +12,8 @@ struct InterfaceSide
 {
    int body = -1;    ///< number of the body; -1: a rigid obstacle, which has no line
    ContactLine line; ///< all of its nodes are nodes of the condensed body's line
+   /// In space: all of its nodes are nodes of the condensed body's surface.
+   ContactSurface surface = {};
 };
 
 /** Which side carries the nodes of the reduced problem (the slave). The coarser side is the one
@@ -49,6 +51,9 @@ struct Interface
    /// given. The first side is then the slave, whatever `slave` says. The pairing is used even
    /// if elements of both sides differ; InterfaceReport::differing tells where.
    std::optional<Pairing> pairing = std::nullopt;
+   /// In space: the initial gap of each node of the side that has the nodes, instead of that of
+   /// the geometry (gaps_to_plane(), …).
+   std::optional<Eigen::VectorXd> node_gaps = std::nullopt;
 };
 
 /** Any number of bodies that touch at any number of interfaces. U are the contact displacements
@@ -77,6 +82,12 @@ struct Interface
     bodies have in common is set to zero in the mean over their traces, which does not affect
     the interfaces; loads that push along it are refused. If the slave of an interface is much
     stiffer than its master, digits are lost: six at a ratio of 1e6 of the stiffnesses.
+
+    Bodies in space meet at surfaces whose nodes match (pair_surfaces(), unless a pairing is
+    given), or lie on rigid obstacles. SlaveSide::second gives the nodes to the second side, all
+    others give them to the first. A row that would close a ring is left out
+    (InterfaceReport::in_rings). First tangents of all nodes come first, then second ones, then
+    the normals.
 
     InputError, with the names of interface and bodies and coordinates, if numbers of bodies or
     nodes do not fit, a body is at no interface, sides do not face each other or overlap by more

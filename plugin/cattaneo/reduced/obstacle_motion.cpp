@@ -2,9 +2,11 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/products.hpp>
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace cattaneo
@@ -13,10 +15,20 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace
 {
+
+/// The place of a contact node in messages.
+std::string place_of(const ReducedProblem &problem, Index node)
+{
+   const bool in_space = problem.position.cols() == 3;
+   Vector3d place(0, 0, 0);
+   place.head(problem.position.cols()) = problem.position.row(node);
+   return place_text(place, in_space ? Formulation::space : Formulation::plane);
+}
 
 /// The beginning of messages about a pattern with this name. InputError if the name is empty,
 /// or if a pattern of the other kind has it already.
@@ -70,23 +82,54 @@ void join_names(ReducedProblem &problem, std::size_t first, MatrixXd &columns)
 } // namespace
 
 void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &ux,
-                                    const ScalarField &uy, const ScalarField &u_theta)
+                                    const ScalarField &uy, const ScalarField &third)
 {
    require(bodies.size() == 1, "obstacle motion '", name, "': the reduction has ",
            bodies.size(), " bodies, must have one, on a rigid obstacle");
+   const bool in_space = bodies[0].line.formulation == Formulation::space;
+   const ScalarField none = 0.0;
    std::vector<ObstacleMotion> motions;
    for (std::size_t k = 0; k < interfaces.size(); ++k)
    {
-      motions.push_back({k, ux, uy, u_theta});
+      motions.push_back({k, ux, uy, in_space ? none : third, in_space ? third : none});
    }
    add_obstacle_motion(name, motions);
+}
+
+void Reduction::displace_in_space(const std::string &where, const ObstacleMotion &motion,
+                                  VectorXd &d) const
+{
+   const InterfaceReport &of = interfaces[motion.interface];
+   const Index n = problem.nodes();
+   const ContactSurface &surface = bodies[of.bodies[0]].surface;
+   // Displacements of all nodes of the body, then those of their unknowns.
+   Eigen::MatrixXd u(surface.size(), 3);
+   std::map<int, Index> number;
+   for (Index k = 0; k < surface.size(); ++k)
+   {
+      const Vector3d &x = surface.nodes[k].position;
+      u.row(k) << motion.ux(x[0], x[1], x[2]), motion.uy(x[0], x[1], x[2]),
+         motion.uz(x[0], x[1], x[2]);
+      number[surface.nodes[k].dofs[0]] = k;
+   }
+   u = surface.of_nodes(std::move(u));
+   for (Index i = 0; i < of.nodes; ++i)
+   {
+      const Index node = of.first + i;
+      const Index k = number.at(problem.dofs(node, 3 * of.bodies[0]));
+      const Vector3d its = u.row(k);
+      require(its.allFinite(), where, ": the displacement at ", place_of(problem, node),
+              " is (", its[0], ", ", its[1], ", ", its[2], "), must be finite");
+      for (int c = 0; c < 3; ++c)
+      {
+         d[c * n + node] = of.frames.row(i).segment(3 * c, 3).dot(its);
+      }
+   }
 }
 
 VectorXd Reduction::displaced(const std::string &where,
                               const std::vector<ObstacleMotion> &motions) const
 {
-   require(bodies[0].line.formulation != Formulation::space, where,
-           ": the body is in space, where obstacles rest");
    const Index n = problem.nodes(), m = problem.slips();
    VectorXd d = VectorXd::Zero(m + n);
    for (const ObstacleMotion &motion : motions)
@@ -97,7 +140,8 @@ VectorXd Reduction::displaced(const std::string &where,
       require(of.bodies[1] < 0 && !of.tied, where, ": interface '", of.name, "' is ",
               of.tied ? "tied" : "between two bodies",
               ", must be of a body on a rigid obstacle");
-      for (Index i = 0; i < of.nodes; ++i)
+      if (of.frames.rows() == of.nodes && of.nodes > 0) { displace_in_space(where, motion, d); }
+      for (Index i = 0; i < of.nodes && of.frames.rows() == 0; ++i)
       {
          const Vector2d x = of.position.row(i), t = of.tangent.row(i),
                         u(motion.ux(x[0], x[1]), motion.uy(x[0], x[1]));
@@ -126,7 +170,7 @@ VectorXd Reduction::displaced(const std::string &where,
       const Index i = row % n;
       require(known.count(row) > 0 || std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(),
               where, ": it moves by ", d[row], " along the fixed component of the node ",
-              Vector2d(problem.position.row(i)), ", must not move along it");
+              place_of(problem, i), ", must not move along it");
       d[row] = 0;
    }
    return d;

@@ -55,15 +55,15 @@ void require_radius(double radius)
            ", must not be zero (a hole's is negative)");
 }
 
-/// Distance g along `looks` from a place to a disc or a sphere: |e + g looks| = |radius|, with
-/// the place at e relative to the centre. Of the two roots it is the one on the side of the
-/// body. A negative radius is that of a hole.
+/// Distance g along `looks` from a place to a disc, a sphere or (of what is across its axis) a
+/// cylinder: |e + g looks| = |radius|, with the place at e relative to the centre. Of the two
+/// roots it is the one on the side of the body. A negative radius is that of a hole.
 template <class Vector>
 double to_ball(const Vector &e, const Vector &looks, double radius)
 {
-   const double along = e.dot(looks), left = along * along - e.squaredNorm() + radius * radius;
+   const double along = e.dot(looks), near = e.squaredNorm() - radius * radius;
    // Computed without a difference of large numbers if the node is nearly on the circle.
-   const double root = std::sqrt(left), near = e.squaredNorm() - radius * radius;
+   const double root = std::sqrt(along * along - looks.squaredNorm() * near);
    return radius > 0 ? near / (root - along) : -near / (root + along);
 }
 
@@ -165,6 +165,65 @@ VectorXd gaps_to_sphere(const ContactSurface &surface, const Vector3d &centre, d
                { return to_ball(Vector3d(x - centre), looks, radius); });
 }
 
+VectorXd gaps_to_cylinder(const ContactSurface &surface, const Vector3d &point,
+                          const Vector3d &axis, double radius)
+{
+   require_radius(radius);
+   require(point.allFinite() && axis.allFinite() && axis.norm() > 0,
+           "obstacle: a cylinder has no finite point or no axis, must have both");
+   const Vector3d along = axis.normalized();
+   const auto across = [&along](const Vector3d &way) -> Vector3d
+   { return way - along.dot(way) * along; };
+   return gaps(surface,
+               [&](const Vector3d &x, const Vector3d &looks)
+               {
+                  const Vector3d its = across(looks);
+                  return its.norm() <= least_sine ? std::nan("")
+                                                  : to_ball(across(x - point), its, radius);
+               });
+}
+
+namespace
+{
+
+/// The way to where a function of it is zero, outwards or inwards in steps that double; not a
+/// number where there is none within 1e6 steps.
+template <class Function>
+double first_zero(const Function &above, double step)
+{
+   const double here = above(0);
+   if (here == 0) { return 0.0; }
+   for (double reach = step; reach < 1e6 * step; reach *= 2)
+   {
+      for (double g : {reach, -reach})
+      {
+         const double there = above(g);
+         if (there == 0) { return g; }
+         if (there * here < 0) { return find_root(above, 0.0, g); }
+      }
+   }
+   return std::nan("");
+}
+
+} // namespace
+
+VectorXd gaps_to_height(const ContactSurface &surface,
+                        const std::function<double(double, double)> &height)
+{
+   double step = std::numeric_limits<double>::infinity();
+   for (const SurfaceNode &node : surface.nodes) { step = std::min(step, node.spacing); }
+   return gaps(surface,
+               [&](const Vector3d &x, const Vector3d &looks)
+               {
+                  const auto above = [&](double g)
+                  {
+                     const Vector3d at = x + g * looks;
+                     return at[2] - height(at[0], at[1]);
+                  };
+                  return first_zero(above, step);
+               });
+}
+
 VectorXd gaps_to_curve(const InterfaceReport &nodes,
                        const std::function<double(double)> &height)
 {
@@ -178,18 +237,7 @@ VectorXd gaps_to_curve(const InterfaceReport &nodes,
                {
                   const auto above = [&](double g)
                   { return x[1] + g * looks[1] - height(x[0] + g * looks[0]); };
-                  const double here = above(0);
-                  if (here == 0) { return 0.0; }
-                  for (double reach = step; reach < 1e6 * step; reach *= 2)
-                  {
-                     for (double g : {reach, -reach})
-                     {
-                        const double there = above(g);
-                        if (there == 0) { return g; }
-                        if (there * here < 0) { return find_root(above, 0.0, g); }
-                     }
-                  }
-                  return std::nan("");
+                  return first_zero(above, step);
                });
 }
 

@@ -30,6 +30,14 @@ Eigen::VectorXd gaps_to_plane(const ContactSurface &surface, const Eigen::Vector
 /// In space a sphere, or with a negative radius a hollow of that radius.
 Eigen::VectorXd gaps_to_sphere(const ContactSurface &surface, const Eigen::Vector3d &centre,
                                double radius);
+/// In space a cylinder about the axis through a point, without ends; with a negative radius a
+/// bore of that radius. `axis` of any length and sense. A node that looks along it faces
+/// nothing.
+Eigen::VectorXd gaps_to_cylinder(const ContactSurface &surface, const Eigen::Vector3d &point,
+                                 const Eigen::Vector3d &axis, double radius);
+/// In space the surface z = height(x, y), as gaps_to_curve().
+Eigen::VectorXd gaps_to_height(const ContactSurface &surface,
+                               const std::function<double(double, double)> &height);
 
 /// The curve y = height(x), with the obstacle on either side of it. The gap is the distance to
 /// its nearest point along the node's normal, outwards or inwards, searched in steps of the

@@ -272,20 +272,32 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
 }
 
 Pairing pair_surfaces(const ContactSurface &surface1, const ContactSurface &surface2,
-                      double tolerance)
+                      double tolerance, const std::string &what)
 {
+   require(tolerance > 0 && tolerance < 0.5, what, ": tolerance is ", tolerance,
+           ", must be above 0 and below 0.5 (distances of nodes)");
+   surface1.validate();
+   surface2.validate();
    const Matches found = match(side_of(surface1), side_of(surface2), tolerance);
-   require(found.complete, "pairing: contact nodes without a partner within ", tolerance,
+   require(found.complete, what, ": contact nodes without a partner within ", tolerance,
            " distances of nodes: of body 1 (", surface1.size(),
            " nodes): ", without_partner(surface1, found.matched1), "; of body 2 (",
            surface2.size(), " nodes): ", without_partner(surface2, found.matched2),
            found.facing ? "" : "; the surfaces do not face each other anywhere");
    Pairing made{found.partner, Eigen::VectorXd(surface1.size())};
+   const Eigen::MatrixX3d points1 = surface1.points(), points2 = surface2.points();
    for (Eigen::Index i = 0; i < surface1.size(); ++i)
    {
       const SurfaceNode &one = surface1.nodes[i], &other = surface2.nodes[found.partner[i]];
+      // Middles of edges face each other with the ends of their edges.
+      std::set<Eigen::Index> ends, its(other.between.begin(), other.between.end());
+      for (Eigen::Index end : one.between) { ends.insert(end < 0 ? end : found.partner[end]); }
+      require(ends == its, what, ": the node at ", place_text(one.position, Formulation::space),
+              " is the middle of an edge of ", one.between[0] < 0 ? "body 2" : "body 1",
+              " alone, both bodies must have faces of order 2 with the same edges there");
       const Eigen::Vector3d normal = (one.normal() - other.normal()).normalized();
-      const double gap = (one.position - other.position).dot(normal);
+      const double gap =
+         (points1.row(i) - points2.row(found.partner[i])).transpose().dot(normal);
       const bool round_off = std::abs(gap) < 1e-9 * std::min(one.spacing, other.spacing);
       made.gap[i] = round_off ? 0 : gap;
    }

@@ -3,6 +3,7 @@
 #include <cattaneo/condense/contact_line.hpp>
 #include <cattaneo/condense/contact_surface.hpp>
 #include <optional>
+#include <string>
 
 namespace cattaneo
 {
@@ -28,9 +29,10 @@ LineNode mean_frame(LineNode node, const LineNode &other);
     unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
 /** The same for the nodes of two surfaces, by their offset perpendicular to the mean normal of
-    both. Faces may differ, for instance diagonals of triangles. */
+    both. Faces may differ, for instance diagonals of triangles, but not the edges of order 2.
+   `what` begins the sentences of InputError. */
 Pairing pair_surfaces(const ContactSurface &surface1, const ContactSurface &surface2,
-                      double tolerance = 1e-6);
+                      double tolerance = 1e-6, const std::string &what = "pairing");
 /** Like pair_lines(), but empty unless every node has a partner and both lines have the same
     elements between them (differing_element()). If elements or orders differ, equal tractions
     do not give equal nodal forces on nodes that coincide. */

@@ -11,7 +11,6 @@ namespace cattaneo
 
 struct Interface;
 struct UnionRows;
-struct ContactRow;
 
 /// The data of an interface in a reduction.
 struct InterfaceReport
@@ -32,6 +31,9 @@ struct InterfaceReport
    /// In space n × 9, of the nodes: the first tangent, the second one, the normal into the body
    /// that has them.
    Eigen::MatrixXd frames = {};
+   Eigen::MatrixX3d places = {}; ///< in space n × 3, of the nodes
+   /// In space: places of nodes without a row, as other rows join them and what they face.
+   std::vector<Eigen::Vector3d> in_rings = {};
    /// n × 2 each: the places where the nodes' forces act on the body that has the nodes, and on
    /// the body that faces it. The first is the node's own place, except on an element that is
    /// faced in part. The second lies on the other side of a gap.
@@ -69,14 +71,15 @@ struct InterfaceReport
 };
 
 /// A rigid obstacle moves (or deforms) by (ux, uy) per unit multiplier, functions of the
-/// contact nodes' places, in axisymmetry (ur, uz); with torsion also by u_θ along the
-/// circumference. (0, 1) moves it up; (c - y, x) turns it about (0, c).
+/// contact nodes' places, in axisymmetry (ur, uz), in space (ux, uy, uz); with torsion also by
+/// u_θ along the circumference. (0, 1) moves it up; (c - y, x) turns it about (0, c).
 struct ObstacleMotion
 {
    std::size_t interface = 0; ///< in Reduction::interfaces
    ScalarField ux = 0.0;      ///< along x or r
    ScalarField uy = 0.0;      ///< along y or z
    ScalarField u_theta = 0.0; ///< along the circumference
+   ScalarField uz = 0.0;      ///< in space along z
 };
 
 /** A reduced problem together with the way back to the fields of its bodies. Load patterns of
@@ -119,9 +122,10 @@ public:
       is held (a plane of symmetry). */
    void add_obstacle_motion(const std::string &name,
                             const std::vector<ObstacleMotion> &motions);
-   /// The same for all obstacles of one body.
+   /// The same for all obstacles of one body. The third displacement is along the
+   /// circumference, in space along z.
    void add_obstacle_motion(const std::string &name, const ScalarField &ux,
-                            const ScalarField &uy, const ScalarField &u_theta = 0.0);
+                            const ScalarField &uy, const ScalarField &third = 0.0);
 
    /** Rigid obstacles that are free to move, in one motion or several, each that of some
        interfaces, and take loads there: obstacles on which forces or moments act, guided or
@@ -214,8 +218,6 @@ public:
 private:
    friend Reduction reduce(std::vector<CondensedBody> bodies,
                            const std::vector<Interface> &interfaces);
-   friend Reduction reduce_surfaces(std::vector<CondensedBody> bodies,
-                                    std::vector<ContactRow> rows, const Eigen::VectorXd &gap);
    /// With the forces of shanks in the place of their pretensions, for displacements {v; w} of
    /// which the obstacle's are a part.
    Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;
@@ -232,6 +234,9 @@ private:
    /// interfaces. InputError, which begins with `where`.
    Eigen::VectorXd displaced(const std::string &where,
                              const std::vector<ObstacleMotion> &motions) const;
+   /// Those of one interface in space, where `d` has them.
+   void displace_in_space(const std::string &where, const ObstacleMotion &motion,
+                          Eigen::VectorXd &d) const;
    /// Contribution of moving obstacles to the relative displacements {v; w} of the contact
    /// nodes.
    Eigen::VectorXd moved(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers) const;
@@ -250,9 +255,8 @@ private:
    std::vector<Shank> shanks_; ///< each of the problem with those before it
 };
 
-/** One body in space against a rigid obstacle; the initial gap of each of its contact nodes,
-   see gaps_to_plane() and gaps_to_sphere(). First tangents of all nodes, second ones, normals;
-    ReducedProblem::dofs has three columns a body.
+/** One body in space against a rigid obstacle, with the initial gap of each of its contact
+   nodes (gaps_to_plane() and others): reduce(bodies, interfaces) with Interface::node_gaps.
     InputError for another number of gaps, one that is not finite, or if a normal component is
     held. */
 Reduction reduce(CondensedBody body, const Eigen::VectorXd &gap);

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/surfaces.hpp>
 #include <cmath>
+#include <set>
 
 namespace cattaneo
 {
@@ -15,9 +17,9 @@ using Eigen::VectorXd;
 namespace
 {
 
-std::string place_of(const CondensedBody &body, Index node)
+std::string called(const SurfaceNode &node)
 {
-   return place_text(body.surface.nodes[node].position, Formulation::space);
+   return place_text(node.position, Formulation::space);
 }
 
 /// The frame with the mean normal of two nodes that face each other. Its first tangent is that
@@ -34,138 +36,331 @@ Matrix3d frame_between(const SurfaceNode &one, const SurfaceNode &other, bool ot
    return frame;
 }
 
-} // namespace
-
-std::vector<ContactRow> rows_on_obstacle(const CondensedBody &body)
+/// Do supports hold a direction of a node?
+bool is_held(const CondensedBody &body, int node, const Vector3d &direction)
 {
-   std::vector<ContactRow> rows(body.nodes());
-   for (int i = 0; i < static_cast<int>(body.nodes()); ++i)
+   double part = 0;
+   for (int c = 0; c < 3; ++c)
    {
-      require(!holds(body, i, 2), "reduce: the contact node at ", place_of(body, i),
-              " is fixed normal to the surface, so that it cannot open: end the contact before "
-              "it");
-      rows[i].slave = {0, i};
-      rows[i].axes = body.surface.nodes[i].frame;
-      rows[i].slides = {!holds(body, i, 0), !holds(body, i, 1)};
-      rows[i].shares = {{{0, i}, 1, 1, 1}};
+      part += body.holds(node, c) ? direction[c] * direction[c] : 0.0;
    }
-   return rows;
+   return part > 0.5;
 }
 
-std::vector<ContactRow> rows_of_pairs(const std::vector<CondensedBody> &bodies,
-                                      const Pairing &pairing)
+bool any_is_held(const CondensedBody &body, int node)
 {
-   const CondensedBody &one = bodies[0], &other = bodies[1];
-   const auto n = static_cast<int>(one.nodes());
-   require(other.nodes() == n && static_cast<int>(pairing.partner.size()) == n &&
-              pairing.gap.size() == n,
-           "reduce: the contact surfaces have ", n, " and ", other.nodes(),
-           " nodes and the pairing ", pairing.partner.size(), ", must be equally many");
-   std::vector<bool> taken(n, false);
-   std::vector<ContactRow> rows(n);
-   for (int i = 0; i < n; ++i)
-   {
-      const int partner = pairing.partner[i];
-      require(partner >= 0 && partner < n && !taken[partner], "reduce: partner ", partner,
-              " in the pairing, must have each number from 0 to ", n - 1, " once");
-      taken[partner] = true;
-      const SurfaceNode &own = one.surface.nodes[i], &its = other.surface.nodes[partner];
-      require(own.normal().dot(its.normal()) < 0,
-              "reduce: the bodies do not face each other at the contact node ",
-              place_of(one, i));
-      require(!holds(one, i, 2) || !holds(other, partner, 2), "reduce: the contact node at ",
-              place_of(one, i),
-              " is fixed normal to the surface in both bodies, so that it cannot open: end the "
-              "contact before it");
-      const bool held = holds(one, i, 0) || holds(one, i, 1),
-                 its_held = holds(other, partner, 0) || holds(other, partner, 1);
-      ContactRow &row = rows[i];
-      row.slave = {0, i};
-      row.axes = frame_between(own, its, its_held && !held);
-      // A tangent does not slide if both bodies hold it.
-      for (int k = 0; k < 2; ++k)
-      {
-         const Vector3d tangent = row.axes.row(k);
-         const auto is_held = [&tangent](const CondensedBody &body, int node)
-         {
-            double part = 0;
-            for (int t = 0; t < 2; ++t)
-            {
-               const Vector3d along = body.surface.nodes[node].frame.row(t);
-               part += holds(body, node, t) ? std::pow(along.dot(tangent), 2) : 0.0;
-            }
-            return part > 0.5;
-         };
-         row.slides[k] = !is_held(one, i) || !is_held(other, partner);
-      }
-      row.shares = {{{0, i}, 1, 1, 1}, {{1, partner}, -1, -1, -1}};
-   }
-   choose_dependents(bodies, rows);
-   return rows;
+   return body.holds(node, 0) || body.holds(node, 1) || body.holds(node, 2);
 }
 
-Reduction reduce_surfaces(std::vector<CondensedBody> bodies, std::vector<ContactRow> contact,
-                          const VectorXd &gap)
+/// The nodes of a side in the trace of its body, and its frames along what supports hold.
+Side surface_side(const InterfaceSide &given, const std::vector<CondensedBody> &bodies,
+                  const std::string &what)
 {
-   Reduction result;
-   for (const CondensedBody &body : bodies) { result.counters += body.counters; }
-   result.counters.unions += bodies.size() > 1;
-   result.bodies = std::move(bodies);
-   auto rows = std::make_shared<UnionRows>();
-   rows->rows = std::move(contact);
-   // Every motion of a body on an obstacle is a motion relative to the obstacle.
-   if (result.bodies.size() > 1) { rows->groups = {{0, 1}}; }
-   const auto n = static_cast<Index>(rows->rows.size());
-   for (int i = 0; i < static_cast<int>(n); ++i) { rows->free.push_back(i); }
-   ReducedProblem &problem = result.problem;
-   result.pattern_ = join(result.bodies, problem.patterns);
-   Block block = united(result.bodies, *rows, result.pattern_, problem.patterns);
-   result.union_ = block.way_back;
-   take(std::move(block), 3, problem);
-   // The nodes are those of the first body; areas are the means of both.
-   const auto count = static_cast<int>(result.bodies.size());
-   problem.gap = gap;
-   problem.weights = VectorXd::Zero(n);
-   problem.position.resize(n, 3);
-   problem.dofs = Eigen::MatrixXi::Constant(n, 3 * count, -1);
-   InterfaceReport report;
-   report.name = "contact";
-   report.bodies = {0, count > 1 ? 1 : -1};
-   report.nodes = n;
-   report.matching = count > 1;
-   report.frames.resize(n, 9);
+   const CondensedBody &body = bodies[given.body];
+   given.surface.validate();
+   std::map<std::array<int, 3>, int> number;
+   for (Index k = 0; k < body.surface.size(); ++k)
+   {
+      number[body.surface.nodes[k].dofs] = static_cast<int>(k);
+   }
+   Side side;
+   side.body = given.body;
+   side.surface = given.surface;
+   meet_supports(side.surface, body);
+   for (const SurfaceNode &node : side.surface.nodes)
+   {
+      const auto found = number.find(node.dofs);
+      // Dofs alone are numbers that other bodies have too.
+      const bool same = found != number.end() &&
+                        (body.surface.nodes[found->second].position - node.position).norm() <=
+                           1e-9 * node.spacing;
+      require(same, what, ": the node ", called(node), " is none that ",
+              called(bodies, given.body),
+              " was condensed to, it must be condensed to the nodes of all of its interfaces "
+              "(joined())");
+      side.nodes.push_back(found->second);
+   }
+   // The unknowns of nodes in the middle of edges are the same ones.
+   for (std::size_t k = 0; k < side.nodes.size(); ++k)
+   {
+      const auto &here = side.surface.nodes[k].between,
+                 &there = body.surface.nodes[side.nodes[k]].between;
+      std::set<Index> ends, its(there.begin(), there.end());
+      for (Index end : here) { ends.insert(end < 0 ? end : side.nodes[end]); }
+      require(ends == its, what, ": the node ", called(side.surface.nodes[k]),
+              " is in the middle of an edge of ", here[0] < 0 ? "the body" : "this side",
+              " alone, the body must be condensed to the faces of all of its interfaces "
+              "(joined())");
+   }
+   return side;
+}
+
+/// Gaps of the unknowns of a surface whose nodes have these, each along the normal of its node.
+VectorXd gaps_of_unknowns(const ContactSurface &surface, const VectorXd &gaps)
+{
+   Eigen::MatrixXd ways(surface.size(), 3);
+   for (Index i = 0; i < surface.size(); ++i)
+   {
+      ways.row(i) = gaps[i] * surface.nodes[i].normal();
+   }
+   ways = surface.of_nodes(std::move(ways));
+   VectorXd made = gaps;
+   for (Index i = 0; i < surface.size(); ++i)
+   {
+      const SurfaceNode &node = surface.nodes[i];
+      if (node.between[0] >= 0) { made[i] = ways.row(i).dot(node.normal()); }
+   }
+   return made;
+}
+
+/// The gaps that a caller gave for the nodes of the slave, those of the pairing, or zeros.
+VectorXd gaps_of(const Interface &given, const MetInterface &met)
+{
+   const ContactSurface &surface = met.slave.surface;
+   const Index n = surface.size();
+   if (given.node_gaps)
+   {
+      require(given.node_gaps->size() == n, met.what, ": ", given.node_gaps->size(),
+              " gaps for ", n, " nodes of the side that has them, must be as many");
+   }
+   else if (!given.gap)
+   {
+      return given.pairing ? given.pairing->gap : VectorXd(VectorXd::Zero(n));
+   }
+   VectorXd gaps(n);
    for (Index i = 0; i < n; ++i)
    {
-      const ContactRow &row = rows->rows[i];
-      require(std::isfinite(gap[i]), "reduce: the gap at ",
-              place_of(result.bodies[0], row.slave.second), " is ", gap[i], ", must be finite");
-      for (const TraceShare &share : row.shares)
-      {
-         const SurfaceNode &node = result.bodies[share.of.first].surface.nodes[share.of.second];
-         problem.weights[i] += node.weight / count;
-         for (int c = 0; c < 3; ++c) { problem.dofs(i, 3 * share.of.first + c) = node.dofs[c]; }
-      }
-      problem.position.row(i) = result.bodies[0].surface.nodes[row.slave.second].position;
-      report.frames.row(i) << row.axes.row(0), row.axes.row(1), row.axes.row(2);
+      const Vector3d &x = surface.nodes[i].position;
+      gaps[i] = given.node_gaps ? (*given.node_gaps)[i] : (*given.gap)(x[0], x[1], x[2]);
+      require(std::isfinite(gaps[i]), met.what, ": the gap at ", called(surface.nodes[i]),
+              " is ", gaps[i], ", must be finite");
    }
-   report.weights = problem.weights;
-   result.interfaces = {report};
-   result.rows_ = std::move(rows);
-   return result;
+   return gaps_of_unknowns(surface, gaps);
+}
+
+/// Which node of the master faces each one of the slave.
+std::vector<int> partners_of(const Interface &given, MetInterface &met)
+{
+   const Index n = met.slave.surface.size();
+   require(given.pairing && met.master.surface.size() == n &&
+              static_cast<Index>(given.pairing->partner.size()) == n &&
+              given.pairing->gap.size() == n,
+           met.what, ": contact surfaces of ", n, " and ", met.master.surface.size(),
+           " nodes with a pairing of ", given.pairing ? given.pairing->partner.size() : 0,
+           ", must be as many");
+   std::set<int> taken;
+   for (int partner : given.pairing->partner)
+   {
+      require(partner >= 0 && partner < n && taken.insert(partner).second, met.what,
+              ": partner ", partner, " in the pairing, must be each of 0 to ", n - 1, " once");
+   }
+   return given.pairing->partner;
+}
+
+/// The row of a node on an obstacle.
+ContactRow row_on_obstacle(const CondensedBody &body, const NodeOfBody &slave,
+                           const SurfaceNode &node, const std::string &what)
+{
+   require(!is_held(body, slave.second, node.normal()), what, ": the contact node at ",
+           called(node),
+           " is fixed normal to the surface, so that it cannot open: end the contact before "
+           "it");
+   ContactRow row;
+   row.slave = slave;
+   row.axes = node.frame;
+   for (int k : {0, 1}) { row.slides[k] = !is_held(body, slave.second, node.frame.row(k)); }
+   row.shares = {{slave, 1, 1, 1}};
+   return row;
+}
+
+/// The row of two nodes that face each other.
+ContactRow row_of_pair(const std::vector<CondensedBody> &bodies, const NodeOfBody &slave,
+                       const SurfaceNode &own, const NodeOfBody &master, const SurfaceNode &its,
+                       const std::string &what)
+{
+   const CondensedBody &one = bodies[slave.first], &other = bodies[master.first];
+   require(own.normal().dot(its.normal()) < 0, what,
+           ": the bodies do not face each other at the contact node ", called(own));
+   require(!is_held(one, slave.second, own.normal()) ||
+              !is_held(other, master.second, its.normal()),
+           what, ": the contact node at ", called(own),
+           " is fixed normal to the surface in both bodies, so that it cannot open: end the "
+           "contact before it");
+   ContactRow row;
+   row.slave = slave;
+   row.axes = frame_between(
+      own, its, any_is_held(other, master.second) && !any_is_held(one, slave.second));
+   // A tangent does not slide if both bodies hold it.
+   for (int k : {0, 1})
+   {
+      const Vector3d tangent = row.axes.row(k);
+      row.slides[k] =
+         !is_held(one, slave.second, tangent) || !is_held(other, master.second, tangent);
+   }
+   row.shares = {{slave, 1, 1, 1}, {master, -1, -1, -1}};
+   return row;
+}
+
+} // namespace
+
+std::vector<ContactRow> rows_on_surfaces(const Interface &given,
+                                         const std::vector<CondensedBody> &bodies,
+                                         JoinedNodes &joined, MetInterface &met)
+{
+   const bool on_obstacle = given.second.body < 0;
+   const bool turned = !on_obstacle && !given.pairing && given.slave == SlaveSide::second;
+   met.given = &given;
+   met.what = "interface '" + given.name + "' of " + called(bodies, given.first.body) +
+              " and " + called(bodies, given.second.body);
+   met.of_second = turned;
+   const auto count = static_cast<int>(bodies.size());
+   for (const InterfaceSide *side : {&given.first, &given.second})
+   {
+      require(side->body >= (side == &given.first ? 0 : -1) && side->body < count, met.what,
+              ": a side is of body ", side->body, ", must be from 0 to ", count - 1,
+              ", or -1 for a rigid obstacle as the second");
+   }
+   met.slave = surface_side(turned ? given.second : given.first, bodies, met.what);
+   std::vector<int> partners;
+   if (!on_obstacle)
+   {
+      met.master = surface_side(turned ? given.first : given.second, bodies, met.what);
+      Interface paired = given;
+      if (!paired.pairing)
+      {
+         paired.pairing = pair_surfaces(met.slave.surface, met.master.surface, 1e-6, met.what);
+      }
+      partners = partners_of(paired, met);
+      met.mortar.gap = gaps_of(paired, met);
+   }
+   else { met.mortar.gap = gaps_of(given, met); }
+   const VectorXd gaps = met.mortar.gap;
+   std::vector<ContactRow> rows;
+   std::vector<double> weights, kept;
+   for (int i = 0; i < static_cast<int>(met.slave.nodes.size()); ++i)
+   {
+      const SurfaceNode &own = met.slave.surface.nodes[i];
+      const NodeOfBody slave(met.slave.body, met.slave.nodes[i]);
+      const NodeOfBody master = on_obstacle
+                                   ? NodeOfBody(-1, 0)
+                                   : NodeOfBody(met.master.body, met.master.nodes[partners[i]]);
+      // Nodes that other rows hold together already, as the tip of a crack is one node.
+      if (slave == master || !joined.join(slave, master))
+      {
+         met.without_row.push_back(i);
+         continue;
+      }
+      if (on_obstacle)
+      {
+         rows.push_back(row_on_obstacle(bodies[slave.first], slave, own, met.what));
+         weights.push_back(own.weight);
+      }
+      else
+      {
+         const SurfaceNode &its = met.master.surface.nodes[partners[i]];
+         rows.push_back(row_of_pair(bodies, slave, own, master, its, met.what));
+         weights.push_back((own.weight + its.weight) / 2);
+         met.facing.push_back(partners[i]);
+      }
+      met.mortar.nodes.push_back(i);
+      kept.push_back(gaps[i]);
+   }
+   require(!rows.empty(), met.what,
+           ": all of its nodes are joined by other interfaces already, each place where two "
+           "sides meet must be named once");
+   met.mortar.weights =
+      Eigen::Map<VectorXd>(weights.data(), static_cast<Index>(weights.size()));
+   met.mortar.gap = Eigen::Map<VectorXd>(kept.data(), static_cast<Index>(kept.size()));
+   return rows;
+}
+
+void require_dependents(const std::vector<CondensedBody> &bodies,
+                        const std::vector<ContactRow> &rows)
+{
+   std::set<std::pair<NodeOfBody, int>> taken;
+   for (const ContactRow &row : rows)
+   {
+      for (int c = 0; c < 3; ++c)
+      {
+         const NodeOfBody &node = row.dependent[c];
+         const bool its = !holds(bodies[node.first], node.second, c);
+         const bool slides = c == 2 || row.slides[c];
+         require((its || !slides) && (!its || taken.emplace(node, c).second),
+                 "reduce: several interfaces meet at the node ",
+                 called(bodies[row.slave.first].surface.nodes[row.slave.second]), " of ",
+                 called(bodies, row.slave.first),
+                 ", and their rows cannot be told apart there: name the two sides of one of "
+                 "them the other way round");
+      }
+   }
+}
+
+InterfaceReport report_on_surfaces(const MetInterface &met, const std::vector<ContactRow> &rows)
+{
+   InterfaceReport report;
+   report.name = met.given->name;
+   report.bodies = {met.slave.body, met.master.body};
+   report.nodes = met.nodes();
+   report.tied = met.given->tied;
+   report.of_second = met.of_second;
+   report.matching = met.master.body >= 0;
+   report.weights = met.mortar.weights;
+   report.spacing.resize(report.nodes);
+   report.turn = VectorXd::Zero(report.nodes);
+   report.frames.resize(report.nodes, 9);
+   report.places.resize(report.nodes, 3);
+   for (Index i = 0; i < report.nodes; ++i)
+   {
+      const SurfaceNode &node = met.slave.surface.nodes[met.mortar.nodes[i]];
+      const Matrix3d &axes = rows[i].axes;
+      report.frames.row(i) << axes.row(0), axes.row(1), axes.row(2);
+      report.places.row(i) = node.position;
+      report.spacing[i] = node.spacing;
+      if (met.master.body < 0) { continue; }
+      const Vector3d normal = met.master.surface.nodes[met.facing[i]].normal();
+      report.turn[i] =
+         std::atan2(node.normal().cross(-normal).norm(), node.normal().dot(-normal));
+   }
+   for (int k : met.without_row)
+   {
+      report.in_rings.push_back(met.slave.surface.nodes[k].position);
+   }
+   return report;
+}
+
+void add_surface_facts(ReducedProblem &problem, Index first, const MetInterface &met)
+{
+   const Index n = met.nodes();
+   problem.gap.segment(first, n) = met.mortar.gap;
+   problem.weights.segment(first, n) = met.mortar.weights;
+   for (Index i = 0; i < n; ++i)
+   {
+      const SurfaceNode &node = met.slave.surface.nodes[met.mortar.nodes[i]];
+      problem.position.row(first + i) = node.position;
+      for (int c = 0; c < 3; ++c)
+      {
+         problem.dofs(first + i, 3 * met.slave.body + c) = node.dofs[c];
+         if (met.master.body < 0) { continue; }
+         problem.dofs(first + i, 3 * met.master.body + c) =
+            met.master.surface.nodes[met.facing[i]].dofs[c];
+      }
+   }
 }
 
 Reduction reduce(CondensedBody body, const VectorXd &gap)
 {
    require(body.line.formulation == Formulation::space,
-           "reduce: gaps are given for each node, but the body is ",
-           name(body.line.formulation), ", where the gap must be a function of the place");
-   require(gap.size() == body.nodes(), "reduce: ", gap.size(),
-           " gaps, must be one for each of the ", body.nodes(), " contact nodes");
+           "reduce: gaps of each node are for a body in space, the body is ",
+           name(body.line.formulation), ", whose gap is a function of the place");
+   require(gap.size() == body.nodes(), "reduce: ", gap.size(), " gaps for ", body.nodes(),
+           " contact nodes, must be as many");
+   Interface contact;
+   contact.first.body = 0;
+   contact.first.surface = body.surface;
+   contact.node_gaps = gap;
    std::vector<CondensedBody> bodies;
    bodies.push_back(std::move(body));
-   std::vector<ContactRow> rows = rows_on_obstacle(bodies[0]);
-   choose_dependents(bodies, rows);
-   return reduce_surfaces(std::move(bodies), std::move(rows), gap);
+   return reduce(std::move(bodies), std::vector<Interface>{contact});
 }
 
 } // namespace cattaneo

@@ -55,7 +55,7 @@ MatrixXd Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
       for (int k = 0; k < d; ++k) { in_frame[k] = tied[k * ties + i]; }
       add(rows_->tied[i], in_frame);
    }
-   return forces;
+   return bodies[b].surface.forces_at_nodes(std::move(forces));
 }
 
 VectorXd Reduction::contact_torques(int b, const VectorXd &q, const VectorXd &tied) const

@@ -32,4 +32,13 @@ void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComp
 /// The same for a line with some of the nodes to which the body was condensed.
 void meet_supports(ContactLine &line, const CondensedBody &body);
 
+/// Turns the frames of a surface whose nodes are some of those that the body was condensed to,
+/// so that they have the axes which supports hold. InputError as of condense().
+void meet_supports(ContactSurface &surface, const CondensedBody &body);
+
+/// The frame of a node in space that has the axes which supports hold; `where` is the node in
+/// sentences.
+Eigen::Matrix3d on_supports(const Eigen::Matrix3d &frame, const std::array<bool, 3> &held,
+                            const std::string &where);
+
 } // namespace cattaneo

@@ -25,9 +25,9 @@ struct DeckMaterial
    double young = 0, poisson = 0;
 };
 
-/** Contents of an .inp of CalculiX or ABAQUS about plane bodies. Names are in capitals. Of
-    several instances only the chosen one is kept, and its sets lose the name of the instance.
-    */
+/** Contents of an .inp of CalculiX or ABAQUS about plane bodies, or beside a matrix about
+    solids. Names are in capitals. Of several instances only the chosen one is kept, and its
+   sets lose the name of the instance. */
 struct InputDeck
 {
    using Nodes = NodalStiffness::Nodes;
@@ -38,7 +38,8 @@ struct InputDeck
       Nodes nodes; ///< corners, then the middles of its sides. The number of corners is 3 or 4
                    ///< for plane and axisymmetric elements, 2 for trusses, 0 for others.
       std::size_t corners = 0;
-      int section = 0; ///< number of its *SOLID SECTION, from 1; 0: none
+      bool is_solid = false; ///< C3D4 to C3D20; beside a matrix alone
+      int section = 0;       ///< number of its *SOLID SECTION, from 1; 0: none
    };
 
    Formulation formulation = Formulation::plane;
@@ -47,8 +48,10 @@ struct InputDeck
    std::vector<Element> elements;
    std::map<std::string, std::vector<std::size_t>> element_sets; ///< indices of elements
    std::vector<Nodes> edges;                                     ///< as outer_edges() has them
-   std::map<std::string, std::vector<Nodes>> surfaces;           ///< of these edges
-   std::vector<std::string> sections; ///< the names of their materials
+   std::map<int, double> z;  ///< in space: the third coordinate of each node
+   std::vector<Nodes> faces; ///< in space: as outer_faces() has them
+   std::map<std::string, std::vector<Nodes>> surfaces; ///< of these edges or faces
+   std::vector<std::string> sections;                  ///< the names of their materials
    /// Materials by name, without those that are not isotropic or not elastic.
    std::map<std::string, DeckMaterial> materials;
    std::vector<Card> cards;

@@ -13,6 +13,7 @@ struct Side
    int body = -1;
    ContactLine line; ///< its frames turned to the directions that supports hold
    std::vector<int> nodes;
+   ContactSurface surface = {}; ///< in space, in place of the line
 };
 
 /// An interface after its sides were matched; its rows and all data about them are computed
@@ -23,8 +24,10 @@ struct MetInterface
    std::string what; ///< begins messages about it
    Side slave, master;
    bool of_second = false; ///< the slave is Interface::second
+   /// In space its nodes, gaps and weights alone.
    Mortar mortar;
    std::vector<int> without_row; ///< nodes of the slave
+   std::vector<int> facing = {}; ///< in space, of each contact node: the node of the master
 
    Eigen::Index nodes() const { return static_cast<Eigen::Index>(mortar.nodes.size()); }
 };

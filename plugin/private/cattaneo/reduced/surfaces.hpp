@@ -1,20 +1,53 @@
 #pragma once
 
-#include <cattaneo/reduced/union.hpp>
+#include <cattaneo/reduced/interface_rows.hpp>
+#include <map>
 
 namespace cattaneo
 {
 
-/// Contact nodes of a body in space on a rigid obstacle. InputError if a normal one is held.
-std::vector<ContactRow> rows_on_obstacle(const CondensedBody &body);
+/// Which nodes of bodies rows of contact nodes join, an obstacle as body -1 among them.
+class JoinedNodes
+{
+public:
+   /// Joins two of them; false if they are joined already, by other rows.
+   bool join(const NodeOfBody &one, const NodeOfBody &other)
+   {
+      const NodeOfBody a = root(one), b = root(other);
+      if (a != b) { up_[a] = b; }
+      return a != b;
+   }
 
-/// Contact nodes of two bodies in space whose nodes face each other one to one, in frames
-/// between both. InputError if the pairing does not fit, or if both hold a normal component.
-std::vector<ContactRow> rows_of_pairs(const std::vector<CondensedBody> &bodies,
-                                      const Pairing &pairing);
+private:
+   NodeOfBody root(NodeOfBody node) const
+   {
+      for (auto found = up_.find(node); found != up_.end(); found = up_.find(node))
+      {
+         node = found->second;
+      }
+      return node;
+   }
+   std::map<NodeOfBody, NodeOfBody> up_;
+};
 
-/// The reduced problem of one body or two in space, with these rows and gaps.
-Reduction reduce_surfaces(std::vector<CondensedBody> bodies, std::vector<ContactRow> rows,
-                          const Eigen::VectorXd &gap);
+/// The rows of an interface of bodies in space, whose nodes match or that lies on an obstacle,
+/// and what is known of it in `met`. InputError if sides or pairing do not fit, or supports
+/// hold a normal component on both sides.
+std::vector<ContactRow> rows_on_surfaces(const Interface &given,
+                                         const std::vector<CondensedBody> &bodies,
+                                         JoinedNodes &joined, MetInterface &met);
+
+/// InputError unless the rows of bodies in space determine each node once, and none that
+/// supports hold.
+void require_dependents(const std::vector<CondensedBody> &bodies,
+                        const std::vector<ContactRow> &rows);
+
+/// Of an interface in space, with the rows of its nodes.
+InterfaceReport report_on_surfaces(const MetInterface &met,
+                                   const std::vector<ContactRow> &rows);
+
+/// Fills in the gaps, weights, places and dofs of the nodes of an interface in space that is
+/// not tied, which begin at `first`.
+void add_surface_facts(ReducedProblem &problem, Eigen::Index first, const MetInterface &met);
 
 } // namespace cattaneo
