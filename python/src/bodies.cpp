@@ -703,10 +703,10 @@ void bind_surfaces(nb::module_ &m)
       "once.\n\nsurfaces: of contact_surface(); nodes and faces of all, each node once.");
    nb::class_<Self>(
       m, "ContactSurface",
-      "The trace of a body in space: its contact nodes and the faces between them.\n\nOn faces "
-      "of "
-      "6 and 8 nodes displacements, gaps and forces of a problem are those of unknowns with "
-      "positive weights, corners N + 1/5 of the middles of adjacent edges, middles 3/5 N. "
+      "The trace of a body in space: its contact nodes and the faces between them.\n\nOn "
+      "faces of 6 and 8 nodes displacements, gaps and forces are those of unknowns. These have "
+      "positive weights: N + 1/5 of the middles of adjacent edges at corners, 3/5 N at "
+      "middles. "
       "at_nodes() and forces_at_nodes() turn them into those of the nodes.")
       .def("__len__", &Self::size)
       .def(

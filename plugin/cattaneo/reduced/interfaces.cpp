@@ -194,8 +194,9 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
            "torsion to their reduction)");
    require(body2.nodes() == n && static_cast<Index>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
-           "reduce: the contact lines or surfaces have ", n, " and ", body2.nodes(),
-           " nodes and the pairing ", pairing.partner.size(), ", must be equally many");
+           "reduce: the contact ", body1.surface.size() > 0 ? "surfaces" : "lines", " have ", n,
+           " and ", body2.nodes(), " nodes and the pairing ", pairing.partner.size(),
+           ", must be equally many");
    Interface contact;
    contact.first = {0, body1.line, body1.surface};
    contact.second = {1, body2.line, body2.surface};
