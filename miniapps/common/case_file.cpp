@@ -33,6 +33,18 @@ std::string where_broken(std::string said)
    if (expected == std::string::npos) { return said; }
    std::string must = said.substr(expected + std::string("; expected ").size());
    said.erase(expected);
+   // Of the text before it the last line is enough.
+   const std::size_t read = said.find("; last read: '");
+   if (read != std::string::npos)
+   {
+      const std::size_t from = read + std::string("; last read: '").size(),
+                        line = said.rfind("<U+000A>"),
+                        text = said.find_first_not_of(' ', line + 8);
+      if (line != std::string::npos && line > from && text != std::string::npos)
+      {
+         said.erase(from, text - from);
+      }
+   }
    const std::size_t comma = said.find("unexpected '}'");
    if (must == "string literal")
    {

@@ -109,8 +109,17 @@ std::string replaced_in(const std::string &structure, const std::string &by,
       const bool entry = place->is_array() && number < place->size(),
                  member =
                     place->is_object() && (place->contains(path[k]) || k + 1 == path.size());
+      std::vector<std::string> known;
+      if (place->is_object())
+      {
+         for (const auto &item : place->items()) { known.push_back(item.key()); }
+      }
       require(entry || member, by, ": '", key, "': there is no key '", path[k], "' in ",
-              listed(std::vector<std::string>(path.begin(), path.begin() + long(k)), "."));
+              listed(std::vector<std::string>(path.begin(), path.begin() + long(k)), "."),
+              place->is_object() ? ", it has " + listed(known)
+              : place->is_array()
+                 ? ", a list of " + std::to_string(place->size()) + ", counted from 0"
+                 : ", which is one value");
       place = entry ? &(*place)[number] : &(*place)[path[k]];
    }
    try
@@ -133,8 +142,8 @@ std::string replaced(const std::string &text, const std::string &separators,
    std::vector<std::string> entries = split_unquoted(where, text, separators);
    char *end = nullptr;
    const long k = std::strtol(path[1].c_str(), &end, 10);
-   require(*end == 0 && k >= 0 && k < static_cast<long>(entries.size()), where, ": option --",
-           path[0], " has ", entries.size(), " entries, must name one of them from 0");
+   require(*end == 0 && k >= 0 && k < static_cast<long>(entries.size()), where, ": ", path[0],
+           " has ", entries.size(), " entries, must name one of them, counted from 0");
    std::string &entry = entries[static_cast<std::size_t>(k)];
    if (path.size() == 2) { entry = value; }
    else
@@ -673,7 +682,7 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
    }
    else if (kind == Text::structure)
    {
-      expect(x.is_object(), "an object");
+      expect(x.is_object(), "names with values in braces, as {\"NAME\": …}");
       return x.dump();
    }
    else if (kind == Text::statements)

@@ -49,7 +49,10 @@ public:
    /// InputError unless it is an object of no other keys.
    void must_be_of(const std::vector<std::string> &keys) const
    {
-      if (!value_.is_object()) { refuse("an object"); }
+      if (!value_.is_object())
+      {
+         refuse("keys and values in braces, with the keys " + listed(keys));
+      }
       for (const auto &item : value_.items())
       {
          require(std::find(keys.begin(), keys.end(), item.key()) != keys.end(), called(),
@@ -125,9 +128,9 @@ public:
               word, "' is not one of ", listed(choices));
       return word;
    }
-   std::array<double, 2> pair() const
+   std::array<double, 2> pair(const std::string &allowed = "two numbers") const
    {
-      if (!value_.is_array() || value_.size() != 2) { refuse("two numbers"); }
+      if (!value_.is_array() || value_.size() != 2) { refuse(allowed); }
       const std::vector<double> both = numbers(any);
       return {both[0], both[1]};
    }
@@ -149,7 +152,7 @@ public:
          }
          for (const Key &point : list())
          {
-            made.points.push_back(point.pair());
+            made.points.push_back(point.pair("a point [arc length, value]"));
             require(check.holds(made.points.back()[1]), point.called(), ": ",
                     made.points.back()[1], " ", check.must);
             const std::size_t k = made.points.size() - 1;
@@ -317,6 +320,9 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
 JointCase::Side side(const Key &key, const JointCase &joint)
 {
    const std::string word = key.text();
+   require(word.find_first_of(":") == word.rfind(':'), key.called(), ": '", word,
+           "' has more than one colon, must be one BODY:PART: two sides are a list of two, "
+           "[\"BODY:PART\", \"BODY:PART\"]");
    const std::size_t colon = std::min(word.find(':'), word.size());
    const JointCase::Side made{joint.body(word.substr(0, colon)),
                               word.substr(std::min(colon + 1, word.size())), key.called()};
@@ -371,7 +377,7 @@ std::vector<JointCase::Motion> motions(const Key &key)
 {
    if (!key.value().is_object() || key.value().empty())
    {
-      key.refuse("an object that names loads");
+      key.refuse("loads by names in braces, as {\"D\": {\"y\": -1}}");
    }
    std::vector<JointCase::Motion> all;
    for (const auto &item : key.value().items())
@@ -408,7 +414,7 @@ Eigen::MatrixX2d strength_points(const Key &key)
    Eigen::Index k = 0;
    for (const Key &point : key.list())
    {
-      const std::array<double, 2> at = point.pair();
+      const std::array<double, 2> at = point.pair("a point [pressure, shear strength]");
       require(at[0] > before[0] && at[1] >= before[1], point.called(), " is (", at[0], ", ",
               at[1], ") and follows (", before[0], ", ", before[1],
               "): pressures must grow from above 0, strengths must not fall");
@@ -492,7 +498,9 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
       if (word == "closed") { made.gap = JointCase::Profile{{{0, 0}}, {}}; }
       else if (word.size() > 1 && std::all_of(word.begin(), word.end(), isalpha))
       {
-         gap.choice({"geometry", "closed"});
+         require(word == "geometry", gap.called(), " is '", word,
+                 "', must be geometry, closed, a number, a function of s, x and y, or a table "
+                 "[[arc length, gap], …]");
       }
       else { made.gap = gap.profile(any); }
    }
@@ -650,7 +658,10 @@ void each(const ordered_json &all, const std::string &name, Add add)
 {
    if (all.is_null()) { return; }
    const Key key(all, name);
-   if (!all.is_object() || all.empty()) { key.refuse("an object with at least one key"); }
+   if (!all.is_object() || all.empty())
+   {
+      key.refuse("names with values in braces, as {\"NAME\": …}, one at least");
+   }
    for (const auto &item : all.items()) { add(key[item.key()], item.key()); }
 }
 
@@ -699,9 +710,11 @@ JointCase joint_case(const JointKeys &keys, int order)
    if (word == "axisymmetric") { joint.formulation = Formulation::axisymmetric; }
    const ordered_json geometry = keys.geometry.empty() ? "smooth" : keys.geometry;
    const bool as_meshed = Key(geometry, "geometry").choice(geometries) == "as meshed";
-   require(!keys.bodies.is_null(), "key 'bodies' is missing, must name the bodies");
+   require(!keys.bodies.is_null(),
+           "key 'bodies' is missing, must name the bodies (--case FILE reads a case, "
+           "--example NAME prints one)");
    require(!keys.interfaces.is_null(),
-           "key 'interfaces' is missing, must name where they touch");
+           "key 'interfaces' is missing, must name where the bodies touch");
    each(keys.bodies, "bodies",
         [&](const Key &key, const std::string &name)
         { joint.bodies.push_back(body(key, name, as_meshed)); });

@@ -61,7 +61,10 @@ void require_writable(const std::string &file)
 std::string read_whole(const std::string &file, const std::string &what)
 {
    std::ifstream in(file, std::ios::binary);
-   require(in.good() && !fs::is_directory(file), what, "cannot read file '", file, "'");
+   require(in.good() && !fs::is_directory(file), what, "cannot read file '", file, "'",
+           fs::is_directory(file) ? ": it is a folder"
+           : fs::exists(file)     ? ": it may not be read"
+                                  : ": there is no such file");
    return {std::istreambuf_iterator<char>(in), {}};
 }
 

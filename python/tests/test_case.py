@@ -48,7 +48,7 @@ def test_other_values(root):
 
 @pytest.mark.filterwarnings("ignore:case:UserWarning")
 def test_sentences(root, tmp_path, monkeypatch):
-    with pytest.raises(cattaneo.InputError, match=r"^case file: cannot read file '.*nowhere.json'$"):
+    with pytest.raises(cattaneo.InputError, match=r"^case file: cannot read file '.*nowhere.json': there is no such file$"):
         cattaneo.case(tmp_path / "nowhere.json")
     with pytest.raises(cattaneo.InputError, match="unknown option|color"):
         cattaneo.case(root / "meshes" / "rounded_punch.json", color="red")

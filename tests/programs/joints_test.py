@@ -806,7 +806,7 @@ WRONG = [
     ({FLAT + "between": ["pad:face", "base:3"]}, "'face'"),
     ({FLAT + "friction": -0.1}, "key 'interfaces.flat.friction' is -0.1"),
     ({FLAT + "friction": [[1, 0.1], [0, 0.2]]}, "must increase"),
-    ({FLAT + "gap": "open"}, "'open' is not one of geometry, closed"),
+    ({FLAT + "gap": "open"}, "gap' is 'open', must be geometry, closed, a number, a function"),
     ({FLAT + "tied": True}, "is tied, it goes without the key friction"),
     ({FLAT + "between": ["pad:1", "base:2"]}, "interface 'flat'"),
     ({"bolts": {"b": {"between": ["pad:3", "base:1"]}}}, "has no 'stiffness'"),
@@ -819,7 +819,7 @@ WRONG = [
     ({"bodies.pad.support": "3:t"}, "component 't', must be x, y or xy"),
     ({"bodies.pad.load": "T twist 3 1"}, "kind 'twist' is not one of "),
     ({**FLOOR, "interfaces.floor.motion": {"D": {"x": 0}}}, "floor.motion.D' moves nothing"),
-    ({**FLOOR, "interfaces.floor.motion": {}}, "must be an object that names loads"),
+    ({**FLOOR, "interfaces.floor.motion": {}}, "must be loads by names in braces, as {\"D\": {\"y\": -1}}"),
     ({**FLOOR, "interfaces.floor.obstacle": {"line": [[0, -1], [0, -1]]}}, "key 'interfaces.floor.obstacle': "),
 ]
 

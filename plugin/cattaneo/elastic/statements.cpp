@@ -221,7 +221,8 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       require(kind, where, ": kind '", words[1], "' is not one of ", listed(known));
       const bool tensor = words[1] == "initial-strain" && words.size() == 6;
       require(words.size() == kind->words || tensor, where, ": has ", words.size(),
-              " words, must be ", kind->form);
+              " words, must be ", kind->form,
+              words.size() > kind->words ? ": a function is one word, without spaces" : "");
       if (around(words[1]) != (body.formulation() == Formulation::torsion)) { continue; }
       const auto field = [&](std::size_t k)
       { return scalar_field(where, words[k], body.formulation()); };

@@ -5,6 +5,7 @@
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/exchange/off_plane.hpp>
 #include <cattaneo/exchange/outer_edges.hpp>
+#include <cattaneo/rounded.hpp>
 #include <cattaneo/words.hpp>
 #include <cmath>
 #include <filesystem>
@@ -824,7 +825,12 @@ Block &DeckReader::chosen(const std::string &file, const DeckPart &part)
             keep_elements(*block, std::vector<std::size_t>(set->second));
             return *block;
          }
-         for (const auto &each : block->deck.element_sets) { sets.push_back(each.first); }
+         for (const auto &each : block->deck.element_sets)
+         {
+            // CAE makes sets of its own for the sides of surfaces, as _HIT_S4.
+            const std::string own = each.first.substr(each.first.find('.') + 1);
+            if (own.empty() || own[0] != '_') { sets.push_back(each.first); }
+         }
       }
       names.insert(names.end(), sets.begin(), sets.end());
       require(false, "file '", file, "' has no instance and no set of elements '", part.name,
@@ -963,8 +969,11 @@ InputDeck DeckReader::finish(const std::string &file, const DeckPart &part)
    }
    if (const std::optional<std::size_t> off = first_off_plane(places))
    {
-      require(false, "file '", file, "': node ", used[*off], " is at z = ", places[*off][2],
-              ", the first one at ", places[0][2], ", all must be in one plane z = const");
+      require(
+         false, "file '", file, "': node ", used[*off], " is at z = ", rounded(places[*off][2]),
+         ", the first one at ", rounded(places[0][2]),
+         ", all must be in one plane z = const: bodies are plane, turn the mesh into the xy "
+         "plane and leave solid elements out");
    }
    try
    {

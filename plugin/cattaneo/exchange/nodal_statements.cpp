@@ -33,20 +33,21 @@ void add_loads(NodalStiffness &body, const std::string &called, const std::strin
                  ((kind == "force" || kind == "traction") && words.size() == 5),
               where,
               ": must be PATTERN force SET fx fy, PATTERN traction SET tx ty, PATTERN "
-              "displacement-x SET u or displacement-y");
+              "displacement-x SET u or PATTERN displacement-y SET u, with numbers");
       const std::string &pattern = words[0];
       require_pattern_name(where, pattern);
       const NodalStiffness::Nodes &nodes = body.nodes_of(words[2]);
-      const double first = number(where, words[3]);
+      const std::string alone = where + ": a matrix takes numbers, no functions";
+      const double first = number(alone, words[3]);
       if (moves) { body.add_displacement(pattern, nodes, kind.back() == 'x' ? 1 : 2, first); }
       else if (kind == "traction")
       {
-         body.add_traction(pattern, nodes, {first, number(where, words[4])}, order);
+         body.add_traction(pattern, nodes, {first, number(alone, words[4])}, order);
       }
       else
       {
          body.add_forces(pattern, nodes, 1, first);
-         body.add_forces(pattern, nodes, 2, number(where, words[4]));
+         body.add_forces(pattern, nodes, 2, number(alone, words[4]));
       }
    }
 }

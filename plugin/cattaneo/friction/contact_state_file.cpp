@@ -105,7 +105,15 @@ void read_state_file(const std::string &what, const std::string &file,
    }
    catch (const nlohmann::json::exception &e)
    {
-      throw InputError(what + ": file '" + file + "' is not a " + what + ": " + e.what());
+      constexpr int no_such_key = 403; // named between quotes
+      const std::string said = e.what();
+      const std::size_t from = std::min(said.find('\''), said.size()),
+                        to = std::min(said.rfind('\''), said.size());
+      throw InputError(what + ": file '" + file + "' is not a " + what + ": " +
+                       (e.id == no_such_key
+                           ? "it lacks the key " + said.substr(from, to - from) +
+                                "', must be a file that a march has saved"
+                           : said));
    }
 }
 

@@ -6,6 +6,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/deck_mesh.hpp>
 #include <cattaneo/mesh/split_line.hpp>
+#include <cattaneo/rounded.hpp>
 #include <cattaneo/words.hpp>
 #include <cerrno>
 #include <cmath>
@@ -241,9 +242,14 @@ void check_gmsh(const GmshMesh &mesh)
    std::vector<long> numbers;
    for (const GmshMesh::Element &element : mesh.elements)
    {
+      // A mesh in space is no plane one, whatever its groups are.
+      require(gmsh_types().at(element.type).corners > 0, "mesh file has element ",
+              element.number, ", ", why_not(element.type));
+   }
+   for (const GmshMesh::Element &element : mesh.elements)
+   {
       const std::string what = "element " + std::to_string(element.number);
       const GmshType &shape = gmsh_types().at(element.type);
-      require(shape.corners > 0, "mesh file has ", what, ", ", why_not(element.type));
       if (order == 0) { order = shape.order; }
       require(shape.order == order, "mesh file has ", what, " of order ", shape.order,
               ", must be ", order, " as those before");
@@ -261,8 +267,8 @@ void check_gmsh(const GmshMesh &mesh)
    }
    if (const std::optional<std::size_t> off = first_off_plane(places))
    {
-      require(false, "mesh file has node ", numbers[*off], " at z = ", places[*off][2],
-              ", the first node at ", places[0][2],
+      require(false, "mesh file has node ", numbers[*off], " at z = ", rounded(places[*off][2]),
+              ", the first node at ", rounded(places[0][2]),
               ", must be equal: turn the mesh into the xy plane");
    }
    require(has_areas,
@@ -398,14 +404,21 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
       require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 4.1 or 2.2: save "
                                           "it anew (gmsh -2 NAME.geo, or File > Export as "
                                           "'Version 4 ASCII')");
-      const bool geometry = std::filesystem::path(file).extension() == ".geo";
+      const std::string ending = std::filesystem::path(file).extension();
+      static const std::set<std::string> others = {".odb", ".cae",  ".fil", ".frd",  ".sti",
+                                                   ".mtx", ".step", ".stp", ".iges", ".stl",
+                                                   ".vtk", ".vtu",  ".med", ".bdf",  ".nas"};
+      std::string begins = line.substr(0, 20);
+      for (char &c : begins) { c = c < ' ' || c > '~' ? '?' : c; } // of a binary file
       require(line.rfind("MFEM mesh v1.", 0) == 0,
               "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), or be a deck "
               "called .inp, not with '",
-              line.substr(0, 20), "'",
-              geometry ? ": this is a geometry, which gmsh -2 NAME.geo makes a mesh "
-                         "of"
-                       : "");
+              begins, "'",
+              ending == ".geo" ? ": this is a geometry, which gmsh -2 NAME.geo makes a mesh of"
+              : ending == ".sti" || ending == ".mtx"
+                 ? ": a stiffness is named by the key 'matrix' in place of 'mesh'"
+              : others.count(ending) ? ": save the mesh in one of these formats"
+                                     : "");
       require(part.split.empty(), "mesh file has no line '", part.split,
               "' to split: only Gmsh's files name lines");
       check_mfem(in, size);

@@ -2,7 +2,8 @@
 #include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/curve_gaps.hpp>
-#include <cattaneo/reduced/surfaces.hpp>
+#include <cattaneo/reduced/interface_rows.hpp>
+#include <cattaneo/rounded.hpp>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -234,8 +235,9 @@ void RowsOfInterface::meet()
       {
          const double most = given_.most_overlap * met.mortar.size[i];
          require(met.mortar.gap[i] >= -most, met.what, ": the sides overlap by ",
-                 -met.mortar.gap[i], " at ", met.slave.line.nodes[met.mortar.nodes[i]].position,
-                 ", must be at most ", most, " (", given_.most_overlap,
+                 rounded(-met.mortar.gap[i]), " at ",
+                 rounded(met.slave.line.nodes[met.mortar.nodes[i]].position),
+                 ", must be at most ", rounded(most), " (", given_.most_overlap,
                  " of the element's length): ",
                  met.mortar.gap[i] < -met.mortar.size[i]
                     ? "are these the sides that touch, and are the bodies in their places?"

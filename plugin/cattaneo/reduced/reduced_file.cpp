@@ -289,7 +289,7 @@ ReducedProblem load_reduced_problem(const std::string &file)
                         to = std::min(what.rfind('\''), what.size());
       require(error.id != no_such_key, "reduced problem: file '", file,
               "' is not a reduced problem: it lacks the key ", what.substr(from, to - from),
-              "' (in itself, or in a chain, a pattern or a law)");
+              "', must be a file that --save or save() wrote");
       throw InputError("reduced problem: file '" + file +
                        "' is not a reduced problem: " + what);
    }

@@ -779,7 +779,10 @@ WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHis
    require_at_least("wear: cycles", cycles, 0);
    require(cycles == std::floor(cycles) && cycles <= 1e15, "wear: cycles is ", cycles,
            ", must be a whole number up to 1e15");
-   require(history.cycle_start >= 0, "wear: the load history has no cycle");
+   require(
+      history.cycle_start >= 0,
+      "wear: the load history has no cycle, must have one: its last points repeat from its "
+      "cycle start on");
    require(state.cycles <= cycles, "wear: cycles is ", cycles, ", must be at least ",
            state.cycles, ", the cycles that the state has had already");
    const bool begins = state.contact.time < history.times[history.cycle_start];

@@ -68,7 +68,10 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    LoadHistory once = history;
    once.cycles = 1;
    once.validate(problem);
-   require(history.cycle_start >= 0, "worn out: the load history has no cycle");
+   require(
+      history.cycle_start >= 0,
+      "worn out: the load history has no cycle, must have one: its last points repeat from its "
+      "cycle start on");
    const Index n = problem.nodes();
    const VectorXd none = VectorXd::Zero(n);
    // Worn nodes touch without force, and open and close by round-off. The exact path would
