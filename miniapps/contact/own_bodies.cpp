@@ -89,7 +89,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
       if (bolt.ends[1].body >= 0) { warn_of_push(joint, bolt, along, ends); }
    }
    std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
-   require_own_meshes(joint);
+   require_own_meshes(joint, parts);
    std::vector<std::vector<ContactLine>> of_body(parts.size());
    for (std::size_t k = 0; k < joint.faces.size(); ++k)
    {

@@ -160,6 +160,11 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          {
             warn(called() + ": " + other);
          }
+         for (int vertex = 0; vertex < mesh.GetNV(); ++vertex)
+         {
+            const double *at = mesh.GetVertex(vertex);
+            vertices_.insert(vertices_.end(), {at[0], at[1]});
+         }
          terms_ = {names.boundary, names.numbered, body_.expansion};
          for (const std::string &warning :
               {unjoined_vertices(mesh, body_.mesh, of_sides(b, true)),
@@ -335,6 +340,11 @@ double OwnPart::size() const
       }
    }
    return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+bool OwnPart::lies_on(const OwnPart &other) const
+{
+   return !vertices_.empty() && vertices_ == other.vertices_;
 }
 
 std::set<int> OwnPart::supported() const

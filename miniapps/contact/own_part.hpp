@@ -48,6 +48,8 @@ public:
 
    /// The diagonal of the box around it; 0: not known, on several ranks.
    double size() const;
+   /// Are its vertices those of the other, at the same places? False for matrices.
+   bool lies_on(const OwnPart &other) const;
    /// Dofs that its supports hold.
    std::set<int> supported() const;
 
@@ -91,6 +93,7 @@ private:
    const JointCase &joint_;
    const JointCase::Body &body_;
    cattaneo::ElasticBody *elastic_ = nullptr, *twisting_ = nullptr;
+   std::vector<double> vertices_; ///< x and y of each vertex of its mesh
    std::optional<cattaneo::NodalStiffness> nodal_;
    cattaneo::BodyTerms terms_;
    cattaneo::SmoothSides sides_;            ///< of the mesh, and what was done to it

@@ -71,18 +71,19 @@ void require_side_free(const JointCase &joint, const JointCase::Face &face,
 
 } // namespace
 
-void require_own_meshes(const JointCase &joint)
+void require_own_meshes(const JointCase &joint, const std::vector<OwnPart> &parts)
 {
    for (const JointCase::Face &face : joint.faces)
    {
       if (face.sides[0].body < 0 || face.sides[1].body < 0) { continue; }
-      const JointCase::Body &one = joint.bodies[face.sides[0].body],
-                            &other = joint.bodies[face.sides[1].body];
-      if (&one == &other || one.mesh.empty()) { continue; }
-      require(one.mesh != other.mesh || one.part != other.part || one.split != other.split,
-              "interface '", face.name, "': bodies ", one.name, " and ", other.name,
-              " are the same mesh '", one.mesh,
-              "' at the same place, so that they overlap wholly: give each a mesh at its own "
+      const int one = face.sides[0].body, other = face.sides[1].body;
+      if (one == other || !parts[one].lies_on(parts[other])) { continue; }
+      const std::string &mesh = joint.bodies[one].mesh, &second = joint.bodies[other].mesh;
+      require(false, "interface '", face.name, "': bodies ", joint.bodies[one].name, " and ",
+              joint.bodies[other].name,
+              mesh == second ? " are the same mesh '" : " have the same nodes, '", mesh,
+              mesh == second ? "'" : "' and '" + second + "'",
+              " at the same place, so that they overlap wholly: give each a mesh at its own "
               "place (in a deck another 'part')");
    }
 }

@@ -8,8 +8,8 @@
 namespace miniapp
 {
 
-/// InputError if both sides of an interface are of one mesh, whose bodies overlap wholly.
-void require_own_meshes(const JointCase &joint);
+/// InputError if both bodies of an interface are the same mesh at the same place.
+void require_own_meshes(const JointCase &joint, const std::vector<OwnPart> &parts);
 
 /// InputError if a side reaches into a guide of its body, whose nodes move as one block, or if
 /// supports hold all of it. `lines`: of both sides of each interface.

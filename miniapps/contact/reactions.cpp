@@ -93,6 +93,8 @@ public:
       // Torques that are round-off of forces at their levers are none.
       const double turns =
          torque_largest_ > 1e-12 * largest * reach ? std::abs(torque_) / torque_largest_ : none;
+      // Resultants that are round-off of the forces at the nodes are measured by these.
+      if (largest < 1e-12 * all.size) { largest = all.size; }
       if (largest == 0) { return turns; }
       // NaN, where nothing turns, is no larger than a number.
       if (!plane_) { return std::fmax(std::abs(all.force[1]) / largest, turns); }
@@ -165,8 +167,22 @@ private:
       {
          for (const int c : {0, 1}) { rest[line.nodes[i].dofs[c]] -= contact(i, c); }
       }
+      // A row that was eliminated has lost its force, which is then among the rest below.
+      const auto lost = [&](int dof)
+      {
+         using Entries = std::decay_t<decltype(held_.K.view())>;
+         for (typename Entries::InnerIterator entry(held_.K.view(), dof); entry; ++entry)
+         {
+            if (entry.col() != dof && entry.value() != 0) { return false; }
+         }
+         return true;
+      };
       for (const Holding &one : held_.holdings)
       {
+         if (held_.supports_left_out && std::all_of(one.dofs.begin(), one.dofs.end(), lost))
+         {
+            continue;
+         }
          Sum its;
          for (const int dof : one.dofs) { its.add(held_.place[dof], along(dof, rest[dof])); }
          named_.push_back({one.kind, one.name, its});

@@ -44,7 +44,7 @@ CHANGES = {
     "a part that there is not": (
         {"interfaces.face.between.0": "pad 1"}, ["between.0': 'pad 1': there is no body 'pad 1', must be one of pad, base", "as BODY:PART"],
     ),
-    "an empty list of bodies": ({"bodies": {}}, ["key 'bodies' is empty, must be an object with at least one key"]),
+    "an empty list of bodies": ({"bodies": {}}, ["key 'bodies' is empty, must be names with values in braces, as {\"NAME\": …}, one at least"]),
     "a first point with a load": ({"history": ["P=1", "Q=1"]}, ["P is 1 at the first point, must be 0", "begin with 'P=0'"]),
     "a folder": ({"bodies.pad.mesh": "."}, ["body pad ('", "mesh file cannot be read: it is a folder"]),
 }  # fmt: skip
@@ -101,3 +101,62 @@ def test_json_that_is_broken(run, text, words):
     run.write("case.json", text)
     error = run("contact", "--case", run.folder / "case.json", code=1).error
     assert words in error and "json.exception" not in error and "syntax error" not in error, error
+
+
+def part_deck(*instances):
+    """A part of 4 × 2 squares, [0, 2] × [0, 1], and its instances in a deck as CAE writes it."""
+    lines = ["*Part, name=BRICK", "*Node"]
+    lines += [f"{1 + i + 5 * j}, {0.5 * i}, {0.5 * j}" for j in range(3) for i in range(5)]
+    lines += ["*Element, type=CPE4"]
+    lines += [f"{1 + i + 4 * j}, {1 + i + 5 * j}, {2 + i + 5 * j}, {7 + i + 5 * j}, {6 + i + 5 * j}" for j in range(2) for i in range(4)]
+    lines += ["*Elset, elset=_ALL", "1, 2, 3, 4, 5, 6, 7, 8", "*Elset, elset=_B_S1, internal", "1, 2, 3, 4", "*Elset, elset=_T_S3, internal",
+              "5, 6, 7, 8", "*Surface, type=ELEMENT, name=BOTTOM", "_B_S1, S1", "*Surface, type=ELEMENT, name=TOP", "_T_S3, S3",
+              "*Nset, nset=MIDDLE", "3,", "*Solid Section, elset=_ALL, material=M", ",", "*End Part", "*Assembly, name=A"]  # fmt: skip
+    for name, motion in instances:
+        lines += [f"*Instance, name={name}, part=BRICK", *motion, "*End Instance"]
+    return "\n".join([*lines, "*End Assembly", "*Material, name=M", "*Elastic", "1000., 0.", ""])
+
+
+def test_instances_by_the_names_of_the_bodies(run):
+    """One part twice, once upside down, with no key 'part': they are two bodies at two places."""
+    turned = ["0., 0., 0.", "1., 0.5, 0., 1., 0.5, 1., 180."]
+    run.write("two.inp", part_deck(("UP", turned), ("LOW", ["0., -1., 0."])))
+    case = {
+        "order": 1,
+        "bodies": {"up": {"mesh": "two.inp", "load": ["P pressure BOTTOM 3"]}, "low": {"mesh": "two.inp", "support": "BOTTOM:xy"}},
+        "interfaces": {"joint": {"between": ["up:TOP", "low:TOP"], "friction": 0.3}},
+    }
+    got = run.case(case)
+    assert abs(got.interface("joint")["normal"] - 3 * 2) < 1e-12 and abs(got["peak_pressure"] - 3) < 1e-12
+    # Two instances at one place overlap, whatever they are called; so do two files of the same nodes.
+    run.write("one.inp", part_deck(("UP", []), ("LOW", [])))
+    same = {"bodies.up.mesh": "one.inp", "bodies.low.mesh": "one.inp"}
+    assert "bodies up and low are the same mesh '" in run.case(changed(case, same), code=1).error
+    run.write("other.inp", part_deck(("UP", []), ("LOW", ["0., -1., 0."])))
+    refused = run.case(changed(case, {"bodies.up.mesh": "one.inp", "bodies.low.mesh": "other.inp", "bodies.low.part": "UP"}), code=1)
+    assert "bodies up and low have the same nodes, '" in refused.error and "they overlap wholly" in refused.error
+
+
+def test_supports_of_an_abaqus_matrix(run):
+    """1e36 on a diagonal is a support whose forces are lost with it: one row has all that is left over."""
+    np = pytest.importorskip("numpy")
+    places = [(x, y) for y in (0, 1) for x in (0, 1, 2)]
+    K = np.zeros((12, 12))
+    for a, b in [(0, 1), (1, 2), (3, 4), (4, 5), (0, 3), (1, 4), (2, 5), (0, 4), (1, 3), (1, 5), (2, 4)]:
+        along = np.subtract(places[b], places[a])
+        stretch = np.zeros(12)
+        stretch[2 * a : 2 * a + 2], stretch[2 * b : 2 * b + 2] = -along / np.linalg.norm(along), along / np.linalg.norm(along)
+        K += np.outer(stretch, stretch)
+    for dof in (6, 10):  # x of both upper corners
+        K[dof, dof] = 1e36
+    run.write("job_STIF1.mtx", "".join(f"{i // 2 + 1},{i % 2 + 1}, {j // 2 + 1},{j % 2 + 1}, {K[i, j]:.16e}\n"
+                                       for i in range(12) for j in range(i, 12) if K[i, j] != 0))  # fmt: skip
+    run.write("job.inp", "*Node\n" + "".join(f"{k + 1}, {x}, {y}\n" for k, (x, y) in enumerate(places))
+              + "*Element, type=CPE4, elset=PAD\n1, 1, 2, 5, 4\n2, 2, 3, 6, 5\n*Nset, nset=FOOT\n1, 2, 3\n*Nset, nset=TOP\n4, 5, 6\n")  # fmt: skip
+    got = run.case({
+        "bodies": {"pad": {"matrix": "job_STIF1.mtx", "load": ["P force TOP 0 -1", "Q force FOOT 0.1 0"]}},
+        "interfaces": {"floor": {"between": ["pad:FOOT"], "friction": 0}}, "history": ["P=0", "P=1", "Q=1"],
+    })  # fmt: skip
+    supports = [row for row in got["reactions"] if row["kind"] == "support"]
+    assert [row["name"] for row in supports] == ["left out of the matrix"], got.output
+    assert abs(supports[0]["force_x"] + 3 * 0.1) < 1e-12
