@@ -6,6 +6,7 @@
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/places.hpp>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -52,32 +53,6 @@ void check_start(const ReducedProblem &problem, const ContactState &state,
    require(false, "option --load-state: the saved state's time ", state.time,
            " is outside of the history, which ends at ",
            history.piece(history.pieces() - 1).end);
-}
-
-/// Where an arc length is: on the straight way between the two nodes around it, of a closed
-/// line once around where it is beyond its ends. Not known without places: NaN.
-Eigen::Vector2d place_on(const ReducedProblem &problem, const ContactChain &chain, double at)
-{
-   if (problem.position.rows() != problem.nodes() || problem.position.cols() < 2)
-   {
-      return Eigen::Vector2d::Constant(none);
-   }
-   const VectorXd arc = problem.arc_length.segment(chain.first, chain.nodes);
-   const auto place = [&](Eigen::Index i) -> Eigen::Vector2d
-   { return problem.position.row(chain.first + i).head(2); };
-   const Eigen::Index last = chain.nodes - 1;
-   if (last == 0) { return place(0); }
-   if (chain.loop && (at < arc[0] || at > arc[last]))
-   {
-      // The way from the last node to the first one.
-      const double length = (place(0) - place(last)).norm(),
-                   share = (at < arc[0] ? length + at - arc[0] : at - arc[last]) / length;
-      if (share >= 0 && share <= 1) { return place(last) + share * (place(0) - place(last)); }
-      at += at < arc[0] ? arc[last] - arc[0] + length : arc[0] - arc[last] - length;
-   }
-   Eigen::Index i = 0;
-   while (i + 1 < last && arc[i + 1] < at) { ++i; }
-   return place(i) + (at - arc[i]) / (arc[i + 1] - arc[i]) * (place(i + 1) - place(i));
 }
 
 /// The circle that a run of nodes lies on, if it is one that turns enough to be told from a
@@ -578,8 +553,8 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
    for (const Zone &zone : zones)
    {
       const ContactChain &chain = problem.chains[zone.chain];
-      const Eigen::Vector2d from = place_on(problem, chain, zone.from.position),
-                            to = place_on(problem, chain, zone.to.position);
+      const Eigen::Vector2d from = place_along(problem, chain, zone.from.position),
+                            to = place_along(problem, chain, zone.to.position);
       std::array<double, 2> angles = {none, none};
       if (const auto &circle = circles[zone.chain])
       {

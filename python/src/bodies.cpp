@@ -8,6 +8,7 @@
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/words.hpp>
 #include <filesystem>
 #include <limits>
 #include <nanobind/stl/string.h>
@@ -27,6 +28,17 @@ CATTANEO_ARGUMENT(Matrix,
                   "scipy.sparse.sparray | scipy.sparse.spmatrix | numpy.typing.ArrayLike",
                   anything);
 CATTANEO_ARGUMENT(Nodes, "str | numpy.typing.ArrayLike", anything);
+
+CATTANEO_ARGUMENT(Statements, "str | collections.abc.Sequence[str]", anything);
+
+/// Statements of a case file: a string, or a list of them.
+std::string in_words(nb::handle statements, const std::string &what)
+{
+   if (nb::isinstance<nb::str>(statements)) { return nb::cast<std::string>(statements); }
+   std::vector<std::string> all;
+   if (!nb::try_cast(statements, all)) { refuse(statements, what, "a str, or a list of them"); }
+   return listed(all, "; ");
+}
 
 constexpr int most_rows = std::numeric_limits<int>::max() - 1;
 
@@ -514,17 +526,18 @@ void bind_stiffness(nb::module_ &m)
          "contact_line() has it.")
       .def(
          "add_supports",
-         [](Self &self, const std::string &supports)
-         { add_supports(self, "supports", supports); },
+         [](Self &self, const Statements &supports)
+         { add_supports(self, "supports", in_words(supports, "supports")); },
          arg("supports"),
          "supports: in words, as in case files, \"FLOOR:y WALL:xy\": sets and the directions "
-         "that are held.")
+         "that are held. Or a list of these.")
       .def(
          "add_loads",
-         [](Self &self, const std::string &loads) { add_loads(self, "loads", loads); },
+         [](Self &self, const Statements &loads)
+         { add_loads(self, "loads", in_words(loads, "loads")); },
          arg("loads"),
          "loads: in words, as in case files, \"P traction TOP 0 -1; P force TIP 0 -1; D "
-         "displacement-x END 0.01\": load, kind, set, values.")
+         "displacement-x END 0.01\": load, kind, set, values. Or a list of these.")
       .def("parts", &Self::parts,
            "The separate bodies, each with the name of a set that contains all of its nodes.")
       .def(

@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "members.hpp"
 #include "module.hpp"
+#include "readout.hpp"
 #include "watch.hpp"
 #include <algorithm>
 #include <cattaneo/friction/history_statements.hpp>
@@ -36,6 +37,7 @@ struct InterfaceMarch
    std::vector<double> slip;              ///< mean of v by weights, as these
    std::vector<int> stick, slipped, open; ///< numbers of nodes
    std::vector<double> dissipation;       ///< of each cycle
+   std::vector<NamedZone> zones;          ///< at the end
 };
 
 /// The interfaces of a problem by the names of its chains. Without chains all nodes are of one.
@@ -46,7 +48,7 @@ std::vector<InterfaceMarch> interfaces_of(const ReducedProblem &problem)
    for (const ContactChain &chain : problem.chains)
    {
       const auto [found, is_new] = at.emplace(chain.interface, all.size());
-      if (is_new) { all.push_back({chain.interface, {}, {}, {}, {}, {}, {}, {}, {}}); }
+      if (is_new) { all.push_back({chain.interface, {}, {}, {}, {}, {}, {}, {}, {}, {}}); }
       std::vector<int> &nodes = all[found->second].nodes;
       for (Index i = 0; i < chain.nodes; ++i)
       {
@@ -99,6 +101,25 @@ void note(std::vector<InterfaceMarch> &interfaces, const ReducedProblem &problem
       each.stick.push_back(count([](NodeState of) { return of == NodeState::stick; }));
       each.slipped.push_back(count(slips));
       each.open.push_back(count([](NodeState of) { return !closed(of); }));
+   }
+}
+
+/// Adds the zones of a state to each interface, if the problem says where its nodes are.
+void add_zones(std::vector<InterfaceMarch> &interfaces, const ReducedProblem &problem,
+               const ContactState &state)
+{
+   const Index n = problem.nodes();
+   const bool lines = n > 0 && problem.components() == 1 && problem.arc_length.size() == n &&
+                      problem.weights.size() == n && !problem.chains.empty();
+   if (!lines) { return; }
+   for (const NamedZone &zone : named_zones(problem, zones(problem, state), false))
+   {
+      for (InterfaceMarch &each : interfaces)
+      {
+         const bool its = std::find(each.nodes.begin(), each.nodes.end(), zone.zone.first) !=
+                          each.nodes.end();
+         if (its) { each.zones.push_back(zone); }
+      }
    }
 }
 
@@ -175,6 +196,7 @@ March march_by(const Marcher &marcher, const ReducedProblem &problem, const Hist
          interface.dissipation.push_back(cycle.node_dissipation(interface.nodes).sum());
       }
    }
+   add_zones(march.interfaces, problem, march.state);
    const std::string early = nothing_presses(problem, loads, march.report, march.state, bolts);
    if (!early.empty()) { march.report.message += "; " + early; }
    warn_of("march", march.report);
@@ -375,8 +397,22 @@ void bind_interface_marches(nb::module_ &m)
          [](const Self &self)
          { return of_increments(self.dissipation, self.dissipation.size()); },
          "lost by friction in each marched cycle")
+      .def_ro("zones", &Self::zones,
+              "zones at the end of the march, as readout.zones() of its state has them; empty "
+              "if the nodes are not on lines with arc lengths and weights")
       .def("__repr__",
-           [](const Self &self) { return "<InterfaceMarch: " + said_of(self) + ">"; });
+           [](const Self &self)
+           {
+              std::ostringstream text;
+              text << "<InterfaceMarch: " << said_of(self);
+              for (const NamedZone &zone : self.zones)
+              {
+                 text << "\n  " << name(*zone.state) << " from " << zone.zone.from.position
+                      << " to " << zone.zone.to.position << zone.places();
+              }
+              text << ">";
+              return text.str();
+           });
 }
 
 /// A marched cycle, with the names of its loads.
@@ -386,14 +422,41 @@ struct Cycle
    std::vector<std::string> loads;
 };
 
+/// Loads by name at each point.
+std::vector<NamedLoads> points_of(nb::handle points, const std::string &what)
+{
+   const std::string needed = "a list of loads by name, as [{}, {\"P\": 1}, {\"Q\": 0.2}]";
+   if (nb::isinstance<nb::str>(points) || nb::isinstance<nb::dict>(points) ||
+       !nb::isinstance<nb::sequence>(points))
+   {
+      refuse(points, what, needed);
+   }
+   std::vector<NamedLoads> all;
+   for (const nb::handle point : points)
+   {
+      const std::string its = what + "[" + std::to_string(all.size()) + "]";
+      if (!nb::hasattr(point, "keys")) { refuse(point, its, "loads by name, as {\"P\": 1}"); }
+      NamedLoads loads;
+      for (const nb::handle key : nb::borrow<nb::mapping>(point).keys())
+      {
+         if (!nb::isinstance<nb::str>(key)) { refuse(key, "a name in " + its, "a str"); }
+         const std::string name = nb::cast<std::string>(key);
+         loads[name] = number(point[key], its + "['" + name + "']");
+      }
+      all.push_back(loads);
+   }
+   require(all.size() > 1, what, " has ", all.size() == 1 ? "one point" : "no point",
+           ", must have two at least, the first without load: [{}, {\"P\": 1}]");
+   return all;
+}
+
 } // namespace
 
 LoadHistory history_from(const ReducedProblem &problem, const History &history,
                          const ContactState &state)
 {
-   if (std::holds_alternative<LoadHistory>(history)) { return std::get<LoadHistory>(history); }
-   auto points = std::get<std::vector<NamedLoads>>(history);
-   if (points.empty()) { points.emplace_back(); } // one point too few, which through() says
+   if (nb::isinstance<LoadHistory>(history)) { return nb::cast<LoadHistory>(history); }
+   std::vector<NamedLoads> points = points_of(history, "history");
    // Loads that the first point does not name are those of the state.
    NamedLoads first = named(problem, state.multipliers);
    for (const auto &[name, value] : points[0]) { first[name] = value; }
@@ -449,15 +512,15 @@ void bind_marches(nb::module_ &m)
                            "marched once, then a cycle that repeats.")
       .def_static(
          "through",
-         [](const ReducedProblem &problem, const std::vector<NamedLoads> &points,
-            std::optional<int> cycle_start, int cycles, Numbers times)
+         [](const ReducedProblem &problem, const Points &points, std::optional<int> cycle_start,
+            int cycles, Numbers times)
          {
             require(cycle_start || cycles == 1,
                     "cycles needs cycle_start, the point at which the cycle starts");
             require(cycle_start.value_or(0) >= 0, "cycle_start is ", cycle_start.value_or(0),
                     ", must be the number of a point");
-            LoadHistory history =
-               LoadHistory::through(problem, points, cycle_start.value_or(-1), cycles);
+            LoadHistory history = LoadHistory::through(problem, points_of(points, "points"),
+                                                       cycle_start.value_or(-1), cycles);
             if (!times.is_none())
             {
                history.times = vector(times, "times", history.times.size());

@@ -9,8 +9,14 @@
 namespace cattaneo::python
 {
 
-/// A history, or points that go on from where a state stands.
-using History = std::variant<LoadHistory, std::vector<NamedLoads>>;
+/// A LoadHistory, or points that go on from where a state stands.
+CATTANEO_ARGUMENT(History,
+                  "LoadHistory | collections.abc.Sequence[collections.abc.Mapping[str, float]]",
+                  anything);
+
+/// Points of a history.
+CATTANEO_ARGUMENT(Points, "collections.abc.Sequence[collections.abc.Mapping[str, float]]",
+                  anything);
 
 /// A MarchReport of Python's.
 nb::object march_report(const ReducedProblem &problem, MarchReport report, ContactState state);

@@ -3,6 +3,7 @@
 #include "arrays.hpp"
 #include "members.hpp"
 #include "module.hpp"
+#include <cattaneo/readout/places.hpp>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -12,6 +13,45 @@
 
 namespace cattaneo::python
 {
+
+std::vector<NamedZone> named_zones(const ReducedProblem &problem,
+                                   const std::vector<Zone> &zones, bool contact)
+{
+   std::vector<NamedZone> all;
+   for (const Zone &zone : zones)
+   {
+      NamedZone made;
+      made.zone = zone;
+      if (!contact) { made.state = zone.state; }
+      if (zone.last >= zone.first && zone.chain < static_cast<int>(problem.chains.size()))
+      {
+         const ContactChain &chain = problem.chains[zone.chain];
+         made.interface = chain.interface;
+         made.from = place_along(problem, chain, zone.from.position);
+         made.to = place_along(problem, chain, zone.to.position);
+      }
+      all.push_back(made);
+   }
+   return all;
+}
+
+std::string NamedZone::places() const
+{
+   if (!from.allFinite() || !to.allFinite()) { return ""; }
+   std::ostringstream text;
+   const auto add = [&](const Eigen::Vector2d &place)
+   {
+      // A coordinate that is round-off of the other one is 0.
+      const double least = 1e-9 * place.cwiseAbs().maxCoeff();
+      const auto shown = [&](double x) { return std::abs(x) < least ? 0.0 : x; };
+      text << "(" << shown(place[0]) << ", " << shown(place[1]) << ")";
+   };
+   text << ", ";
+   add(from);
+   text << " to ";
+   add(to);
+   return text.str();
+}
 
 namespace
 {
@@ -32,30 +72,6 @@ std::string with_error(double value, double error)
    return text.str();
 }
 
-/// A zone with what its numbers stand for.
-struct NamedZone
-{
-   Zone zone;
-   std::optional<NodeState> state; ///< none: in contact, whatever slips
-   std::string interface;
-
-   bool none() const { return zone.last < zone.first; }
-};
-
-std::vector<NamedZone> named(const ReducedProblem &problem, const std::vector<Zone> &zones,
-                             bool contact)
-{
-   std::vector<NamedZone> all;
-   for (const Zone &zone : zones)
-   {
-      const bool known =
-         zone.last >= zone.first && zone.chain < static_cast<int>(problem.chains.size());
-      all.push_back({zone, contact ? std::nullopt : std::optional(zone.state),
-                     known ? problem.chains[zone.chain].interface : std::string()});
-   }
-   return all;
-}
-
 std::string brief(const NamedZone &self)
 {
    const std::string kind = self.state ? name(*self.state) : "contact";
@@ -63,7 +79,7 @@ std::string brief(const NamedZone &self)
    return "<Zone: " + kind + " from " +
           with_error(self.zone.from.position, self.zone.from.error) + " to " +
           with_error(self.zone.to.position, self.zone.to.error) +
-          (self.interface.empty() ? "" : " of '" + self.interface + "'") + ">";
+          (self.interface.empty() ? "" : " of '" + self.interface + "'") + self.places() + ">";
 }
 
 void bind_zones(nb::module_ &m)
@@ -88,6 +104,13 @@ void bind_zones(nb::module_ &m)
       .def_prop_ro(
          "to", [](const NamedZone &self) { return self.zone.to; }, "last end")
       .def_prop_ro(
+         "from_place", [](const NamedZone &self) { return array(self.from); },
+         "(x, y) of the first end, on the straight way between the nodes beside it; nan if the "
+         "problem has no places")
+      .def_prop_ro(
+         "to_place", [](const NamedZone &self) { return array(self.to); },
+         "(x, y) of the last end, as from_place")
+      .def_prop_ro(
          "first", [](const NamedZone &self) { return self.zone.first; },
          "number of its first node")
       .def_prop_ro(
@@ -106,28 +129,32 @@ void bind_zones(nb::module_ &m)
    m.def(
       "zones",
       [](const ReducedProblem &problem, const ContactState &state)
-      { return named(problem, zones(problem, checked(problem, state)), false); },
+      { return named_zones(problem, zones(problem, checked(problem, state)), false); },
       arg("problem"), arg("state"),
       "Zones of a state of the problem along its contact lines, in the order of the nodes: "
       "neighbouring nodes that stick, slip in one direction, or are open.");
    m.def(
       "contact_zones",
-      [](const ReducedProblem &problem, const ContactState &state)
-      { return named(problem, contact_zones(zones(problem, checked(problem, state))), true); },
+      [](const ReducedProblem &problem, const ContactState &state) {
+         return named_zones(problem, contact_zones(zones(problem, checked(problem, state))),
+                            true);
+      },
       arg("problem"), arg("state"),
       "Parts of its lines that are in contact in a state of the problem: neighbouring nodes "
       "that are pressed, whether they stick or slip.");
    m.def(
       "contact_zone",
-      [](const ReducedProblem &problem, const ContactState &state)
-      { return named(problem, {contact_zone(problem, checked(problem, state))}, true)[0]; },
+      [](const ReducedProblem &problem, const ContactState &state) {
+         return named_zones(problem, {contact_zone(problem, checked(problem, state))}, true)[0];
+      },
       arg("problem"), arg("state"),
       "The widest of contact_zones(), over all lines and interfaces of the problem in this "
       "state. Its width is 0 if all nodes are open.");
    m.def(
       "stick_zone",
-      [](const ReducedProblem &problem, const ContactState &state)
-      { return named(problem, {stick_zone(problem, checked(problem, state))}, false)[0]; },
+      [](const ReducedProblem &problem, const ContactState &state) {
+         return named_zones(problem, {stick_zone(problem, checked(problem, state))}, false)[0];
+      },
       arg("problem"), arg("state"),
       "The widest zone of stick in a state of the problem. Its width is 0 if no node sticks.");
    m.def(

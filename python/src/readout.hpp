@@ -2,8 +2,12 @@
 
 #include "words.hpp"
 #include <cattaneo/readout/contact_edges.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
-// What functions share that read out edges of contact.
+// What functions share that read out zones and edges of contact.
 
 namespace cattaneo::python
 {
@@ -13,5 +17,25 @@ inline CrackedBody cracked_body(const std::string &cracked)
 {
    return chosen<CrackedBody>(cracked, "cracked");
 }
+
+/// A zone with what its numbers stand for.
+struct NamedZone
+{
+   Zone zone;
+   std::optional<NodeState> state; ///< none: in contact, whatever slips
+   std::string interface;
+   /// Places of its ends; NaN if they are not known.
+   Eigen::Vector2d from = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()),
+                   to = from;
+
+   bool none() const { return zone.last < zone.first; }
+   /// ", (x, y) to (x, y)", or nothing.
+   std::string places() const;
+};
+
+/// Zones with their interfaces and places. `contact`: their nodes are in contact, whatever
+/// slips.
+std::vector<NamedZone> named_zones(const ReducedProblem &problem,
+                                   const std::vector<Zone> &zones, bool contact);
 
 } // namespace cattaneo::python

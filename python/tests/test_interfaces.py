@@ -79,11 +79,32 @@ def test_zones_say_what_they_are(stacked):
     state = cattaneo.march(stacked, [{}, {"P": 1}]).state
     zones = readout.contact_zones(stacked, state)
     assert [zone.interface for zone in zones] == ["lower", "upper"] and [zone.state for zone in zones] == [None, None]
-    assert repr(zones[0]) == "<Zone: contact from 0 to 1 of 'lower'>"
+    first, last = stacked.position[[zones[0].first, zones[0].last]]  # the whole line
+    assert repr(zones[0]) == "<Zone: contact from 0 to 1 of 'lower', ({:g}, {:g}) to ({:g}, {:g})>".format(*first, *last)
     assert readout.zones(stacked, state)[0].state == cattaneo.NodeState.stick
     nothing = readout.contact_zone(stacked, cattaneo.ContactState.virgin(stacked))
     assert repr(nothing) == "<Zone: no contact>" and nothing.width == 0
     assert repr(readout.stick_zone(stacked, cattaneo.ContactState.virgin(stacked))) == "<Zone: no stick>"
+
+
+def test_zones_have_places():
+    """The line of a half-plane whose body is above runs along x; its contact nodes begin at x = -1.5."""
+    steel = cattaneo.Material(young=210.0, poisson=0.3)
+    upper = cattaneo.HalfPlane(steel, depth=1e4, normal=(0, 1), forces={"P": (0, -1)})
+    problem = cattaneo.reduce(cattaneo.condense(upper, np.linspace(-1.5, 1.5, 31)), cattaneo.HalfPlane(steel, depth=1e4)).problem
+    problem.gap = problem.position[:, 0] ** 2 / 2
+    report = cattaneo.march(problem, [{}, {"P": 90.0}])
+    (face,) = report.interfaces.values()
+    assert [str(zone.state) for zone in face.zones] == [str(zone.state) for zone in readout.zones(problem, report.state)]
+    assert len(face.zones) >= 3
+    start, sign = problem.position[0, 0], np.sign(problem.position[-1, 0] - problem.position[0, 0])
+    for zone in face.zones:
+        for end, place in ((zone.from_, zone.from_place), (zone.to, zone.to_place)):
+            assert place == pytest.approx([start + sign * (float(end) - problem.arc_length[0]), 0], abs=1e-12)
+    closed = readout.contact_zone(problem, report.state)
+    assert closed.from_place[0] == pytest.approx(-closed.to_place[0], abs=1e-9)
+    assert f"({closed.from_place[0]:g}, 0) to ({closed.to_place[0]:g}, 0)" in repr(closed)
+    assert repr(face).count("\n") == len(face.zones)
 
 
 def test_one_interface_of_a_problem_by_hand():
