@@ -83,7 +83,7 @@ class Program:
 
     def refuses(self, case):
         """The key that it does not accept as such, if there is one."""
-        found = re.match(r"error: (?:case file '.*?'(?: is of version 1, which is no longer read, |: (?:unknown )?)key '|key '(?!bodies|interfaces|bolts|points|\S+' does nothing)"
+        found = re.match(r"error: (?:case file '.*?'(?: is of version 1, which is no longer read, |: (?:unknown )?)key '|key '(?!bodies|interfaces|bolts|points|\S+' does nothing|edges' has \d+ times)"
                          r"|option --(?!sweep:|\S+ does nothing))([\w$-]+)", self.says(case))
         return found and found[1]
 
@@ -119,7 +119,7 @@ def of_objects(asked, schema, definitions):
                 inner[key] = value
                 said = asked.says(case)
                 # What no schema says: what goes with what, names that are not there, numbers of Poisson.
-                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|an interface with an obstacle|must have one of the keys|is not a number or a function|must be geometry, closed|must be left out|must have two|must grow from above 0|has both|has none of the keys|it must have a direction|has \d of the keys", said):
+                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|an interface with an obstacle|must have one of the keys|is not a number or a function|must be geometry, closed|must be left out|must grow from above 0|has both|has none of the keys|it must have a direction|has \d of the keys", said):
                     continue
                 refuses = re.match(r"error: key '", said) is not None
                 if refuses == fits(schema, case, definitions):
