@@ -30,7 +30,12 @@ std::string where_broken(std::string said)
    if (dash == std::string::npos) { return said; }
    said.replace(inner, dash + 3 - inner, ": ");
    const std::size_t expected = said.find("; expected ");
-   if (expected == std::string::npos) { return said; }
+   if (expected == std::string::npos)
+   {
+      return said + (said.rfind("line 1, column 1: invalid", 0) == 0
+                        ? ", a case must begin with { (// and /* */ begin comments)"
+                        : "");
+   }
    std::string must = said.substr(expected + std::string("; expected ").size());
    said.erase(expected);
    // Of the text before it the last line is enough.

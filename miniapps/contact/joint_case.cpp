@@ -59,9 +59,9 @@ public:
                  ": unknown key '", item.key(), "', must be one of ", listed(keys));
       }
    }
-   std::string text() const
+   std::string text(const std::string &allowed = "a string") const
    {
-      if (!value_.is_string()) { refuse("a string"); }
+      if (!value_.is_string()) { refuse(allowed); }
       return value_.get<std::string>();
    }
    std::string file() const
@@ -118,7 +118,10 @@ public:
    std::string statements() const
    {
       std::vector<std::string> all;
-      for (const Key &key : list()) { all.push_back(key.text()); }
+      for (const Key &key : list())
+      {
+         all.push_back(key.text("a string, or a list of strings"));
+      }
       return listed(all, "; ");
    }
    std::string choice(const std::vector<std::string> &choices) const
@@ -293,6 +296,11 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
       // A deck may have materials of its own.
       if ((ending != ".inp" && ending != ".INP") || key.has("young") || key.has("poisson"))
       {
+         require(
+            key.has("young") || key.has("poisson"), key.called(),
+            " has neither 'young' nor 'poisson', must have both: of meshes only decks (.inp) "
+            "have materials in themselves, and '",
+            made.mesh, "' is none");
          made.young = key["young"].constants(positive);
          made.poisson = key["poisson"].constants(any);
       }
@@ -319,7 +327,8 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
 /// "pad:flank_left", or "ground" of a half-plane.
 JointCase::Side side(const Key &key, const JointCase &joint)
 {
-   const std::string word = key.text();
+   const std::string word =
+      key.text("BODY:PART, or a list of two, [\"BODY:PART\", \"BODY:PART\"]");
    require(word.find_first_of(":") == word.rfind(':'), key.called(), ": '", word,
            "' has more than one colon, must be one BODY:PART: two sides are a list of two, "
            "[\"BODY:PART\", \"BODY:PART\"]");

@@ -1,5 +1,6 @@
 #include "contact/own_interfaces.hpp"
 
+#include "common/text.hpp"
 #include "contact/own_half_plane.hpp"
 
 #include <algorithm>
@@ -224,8 +225,9 @@ void complete(OwnBodies &own, const JointCase &joint,
          const double arc = arc_length_on(lines[k][0], place);
          const auto check = [&](const char *key, double value, bool right, const char *must)
          {
-            require(right, face.source.called(key), " is ", value, " at arc length ", arc,
-                    ", the place ", place, ", ", must);
+            require(right, face.source.called(key), " is ", told(value), " at arc length ",
+                    told(arc), ", the place (", told(place[0]), ", ", told(place[1]), "), ",
+                    must);
          };
          const double f = problem.friction[i] = face.friction.at(arc, place);
          check("friction", f, std::isfinite(f) && f >= 0, "must be finite and not negative");

@@ -105,8 +105,13 @@ Guide per_thickness(Guide guide, double thickness)
 }
 
 /// What a deck says of plane stress or strain, if the case says otherwise; else nothing.
-std::string other_plane_state(const MeshNames &names, bool plane_stress)
+std::string other_plane_state(const MeshNames &names, bool plane_stress, bool about_axis)
 {
+   if (about_axis && !names.axisymmetric && !names.plane_elements.empty())
+   {
+      return "its elements are plane (" + *names.plane_elements.begin() +
+             "), the case computes bodies of revolution (key 'analysis')";
+   }
    const std::string other = plane_stress ? "CPE" : "CPS";
    if (names.axisymmetric || names.plane_elements.count(other) == 0) { return ""; }
    return "its elements are of plane " +
@@ -155,7 +160,8 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
             warn("mesh '" + body_.mesh + "': its " + names.passed_over +
                  " are ignored: contacts, supports and loads are those of the case");
          }
-         if (const std::string other = other_plane_state(names, joint_.plane_stress);
+         if (const std::string other = other_plane_state(
+                names, joint_.plane_stress, joint_.formulation != Formulation::plane);
              !other.empty())
          {
             warn(called() + ": " + other);

@@ -46,6 +46,11 @@ CHANGES = {
     ),
     "an empty list of bodies": ({"bodies": {}}, ["key 'bodies' is empty, must be names with values in braces, as {\"NAME\": …}, one at least"]),
     "a first point with a load": ({"history": ["P=1", "Q=1"]}, ["P is 1 at the first point, must be 0", "begin with 'P=0'"]),
+    "a mesh without materials": (
+        {"bodies.pad.young": None, "bodies.pad.poisson": None}, ["key 'bodies.pad' has neither 'young' nor 'poisson', must have both", "only decks (.inp)"],
+    ),
+    "a load without a name": ({"bodies.pad.load": "pressure 3 1"}, ["kind '3' is not one of pressure", ": a load begins with its name, as P pressure"]),
+    "sides that are numbers": ({"interfaces.face.between": [1, 3]}, ["between.0' is 1, must be BODY:PART, or a list of two"]),
     "a folder": ({"bodies.pad.mesh": "."}, ["body pad ('", "mesh file cannot be read: it is a folder"]),
 }  # fmt: skip
 
@@ -128,6 +133,10 @@ def test_instances_by_the_names_of_the_bodies(run):
     }
     got = run.case(case)
     assert abs(got.interface("joint")["normal"] - 3 * 2) < 1e-12 and abs(got["peak_pressure"] - 3) < 1e-12
+    # Plane elements in a case about an axis are warned of.
+    spun = run.case(changed(case, {"analysis": "axisymmetric", "bodies.low.support": "BOTTOM:rz"}))
+    assert "body up ('" in spun.warned() and "its elements are plane (CPE), the case computes bodies of revolution" in spun.warned()
+    assert "bodies of revolution" not in got.warned()
     # Two instances at one place overlap, whatever they are called; so do two files of the same nodes.
     run.write("one.inp", part_deck(("UP", []), ("LOW", [])))
     same = {"bodies.up.mesh": "one.inp", "bodies.low.mesh": "one.inp"}

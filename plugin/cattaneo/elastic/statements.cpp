@@ -218,7 +218,10 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
          if (words[1] == name) { kind = &k; }
          known.push_back(name);
       }
-      require(kind, where, ": kind '", words[1], "' is not one of ", listed(known));
+      require(kind, where, ": kind '", words[1], "' is not one of ", listed(known),
+              std::find(known.begin(), known.end(), pattern) == known.end()
+                 ? ""
+                 : ": a load begins with its name, as P " + pattern);
       const bool tensor = words[1] == "initial-strain" && words.size() == 6;
       require(words.size() == kind->words || tensor, where, ": has ", words.size(),
               " words, must be ", kind->form,
