@@ -1,4 +1,4 @@
-"""What a state says: zones and edges of contact, tractions."""
+"""Results computed from a state: zones and edges of contact, tractions."""
 
 from ._core.readout import (
     ContactAreas as ContactAreas,

@@ -1,4 +1,4 @@
-"""Fretting wear: the gap takes in what Archard's law wears off, cycle by cycle, by jumps, or at once where it ends.
+"""Fretting wear: the wear depth of Archard's law is added to the gap cycle by cycle, in jumps, or in one step to the final state.
 
     law = wear.WearLaw.uniform(problem, 1e-4)
     report = wear.wear(problem, law, history, 1e6, settings=wear.WearSettings(tolerance=1e-3))

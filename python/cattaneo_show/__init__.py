@@ -16,7 +16,7 @@ def plot(run, file=None, panels=None):
     """A figure (matplotlib) of a run's panels, saved if a file is named (png, pdf or svg).
 
     run: what read() returned, or the name of its file. panels: their names (panel_names()), in the order wanted, or None
-    for all. Returns the figure. Refused for a name that is none; ImportError without matplotlib."""
+    for all. Returns the figure. Unknown names are refused; ImportError without matplotlib."""
     from .drawing import figure, save
 
     made = figure(run if isinstance(run, dict) else read(run), panels)

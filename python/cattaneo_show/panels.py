@@ -39,7 +39,7 @@ def panel(run, name):
     """Words and rows of one panel of a run.
 
     Words: for each key (kind, title, x, y, limits x, …) a list of texts. Rows: dictionaries, by column. Of a table that
-    is drawn they are the table's own. Refused for a name that is none."""
+    is drawn they are the table's own. Unknown names are refused."""
     for one in run["shown"]["panels"]:
         if one["name"] == name:
             return words(one), rows(run, one)
