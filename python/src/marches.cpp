@@ -239,7 +239,7 @@ March march_with_bolts(const BoltedJoint &self, const History &history,
    // Nobody asked for a march to stop where a bolt would push.
    const MarchReport &report = march.report;
    if (report.status == FrictionStatus::stopped &&
-       report.message.find("push") < std::string::npos)
+       report.message.find("would be compressed") < std::string::npos)
    {
       warn("march: " + report.message + ", at time " + exact_text(report.event_time));
    }

@@ -3,6 +3,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/curve_gaps.hpp>
 #include <cattaneo/reduced/interface_rows.hpp>
+#include <cattaneo/reduced/surfaces.hpp>
 #include <cattaneo/rounded.hpp>
 #include <cmath>
 #include <iterator>
