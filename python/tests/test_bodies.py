@@ -583,7 +583,7 @@ def test_nothing_is_held_or_loaded_in_silence():
         lambda: body.add_traction("P", nowhere, (0, 1)),
         lambda: body.contact_line(nowhere),
     ):
-        with pytest.raises(cattaneo.InputError, match="nodes is .*, must name one node at least"):
+        with pytest.raises(cattaneo.InputError, match="nodes is .*, must name at least one node"):
             call()
     for call in (
         lambda: body.add_forces("", [0], "y", 1.0),

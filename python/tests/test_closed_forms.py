@@ -255,7 +255,7 @@ def test_laws_of_friction_by_hand():
         assert back.q[0] == pytest.approx(0.3 * P) and back.v[0] == pytest.approx(-(4 - 0.3 * P) / 2)
     problem.friction = 0.25
     assert problem.laws == [] and sheared(2, 4).q[0] == pytest.approx(0.5)
-    with pytest.raises(ValueError, match="must grow from"):
+    with pytest.raises(ValueError, match="the pressure must increase from 0"):
         problem.set_friction_law([[1, 0.5], [2, 0.4]])
     with pytest.raises(ValueError, match="nodes is empty"):
         problem.set_friction_law([[1, 0.5]], nodes=[])

@@ -100,7 +100,8 @@ class Guide:
             program = self.program(name)
             help_text = subprocess.run([program, "-h"], text=True, capture_output=True, check=False).stdout if program else ""
             self.options[name] = set(re.findall(r"--?[a-zA-Z][\w-]*", help_text))
-        return not self.options[name] or option in self.options[name]
+        # -h lists two dashes; one will do in place of them.
+        return not self.options[name] or option in self.options[name] or f"-{option}" in self.options[name]
 
     def check_command(self, page, text, command):
         words = shlex.split(command)[1:]

@@ -93,7 +93,7 @@ def test_bolts_that_are_tightened_too_late(run):
     case.pop("cycle-start")
     case.pop("cycles")
     got = run.case({**case, "history": ["Q=0", "Q=1", "bolt=1"]}, code=2)
-    assert "nothing presses yet: bolt 'bolt' is tightened at point 2 of the history" in got["message"], got["message"]
+    assert "no load presses the bodies together yet: bolt 'bolt' is tightened at point 2 of the history" in got["message"], got["message"]
 
 
 @pytest.mark.parametrize("text, words", [
