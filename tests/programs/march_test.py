@@ -131,7 +131,7 @@ def test_laws_of_friction_that_bend_or_differ_by_way(run):
     near(max(-q / p for p, q in shears(2, *ways)), 0.4, 1e-9)
     near(max(q / p for p, q in shears(3, *ways)), 0.28, 1e-9)
     for options, words in ((["--strength", "1 0.4 2"], "in turn"), (["--strength", "1 0.4", "--friction", 0.3], "two laws of friction"),
-                           (["--strength-backward", "1 0.4"], "goes with --strength"), (["--strength", "2 0.4 1 0.5"], "must grow")):
+                           (["--strength-backward", "1 0.4"], "goes with --strength"), (["--strength", "2 0.4 1 0.5"], "the pressure must increase")):
         assert words in run(*HERTZ, "--history", "P=0; P=1", *options, code=1).error
 
 
