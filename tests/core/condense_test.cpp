@@ -599,10 +599,12 @@ TEST(CondenseMatrix, ALineIsWhereItsDofsAre)
       spoil(line);
       expect_input_error([&] { condense(body, line); }, said);
    };
-   refused("dof 3 of component x of node 1 of the line, at (1, 0), is component y of the node "
+   refused("dof 3, given as component x of node 1 of the line, at (1, 0), is component y of "
+           "the node "
            "(1, 0) of the body",
            [](auto &l) { std::swap(l.nodes[1].dofs[0], l.nodes[1].dofs[1]); });
-   refused("dof 4 of component x of node 1 of the line, at (1, 0), is component x of the node "
+   refused("dof 4, given as component x of node 1 of the line, at (1, 0), is component x of "
+           "the node "
            "(2, 0) of the body",
            [](auto &l) { std::swap(l.nodes[1].dofs, l.nodes[2].dofs); });
    // The line is 3 long.
@@ -624,9 +626,10 @@ TEST(CondenseMatrix, ALineIsWhereItsDofsAre)
    ring.nodes = {{{0, -1}, {1, 0}, {1, 0}, 1, 0, 1}};
    EXPECT_NEAR(condense(shaft, ring).S(0, 0), 1, 1e-14); // 2 - 1, behind which nothing holds
    ring.nodes[0].dofs[0] = 1;
-   expect_input_error([&] { condense(shaft, ring); },
-                      "dof 1 of component twist of node 0 of the line, at (1, 0), is component "
-                      "twist of the node (1, 1)");
+   expect_input_error(
+      [&] { condense(shaft, ring); },
+      "dof 1, given as component twist of node 0 of the line, at (1, 0), is component "
+      "twist of the node (1, 1)");
 }
 
 TEST(CondenseMatrix, SpringsThatConnectNoComponents)

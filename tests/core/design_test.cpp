@@ -313,7 +313,7 @@ TEST(Design, ThatDidNotEndKnowsNoConditions)
    settings.max_iterations = 1;
    const DesignReport report = design(problem, VectorXd::Zero(problem.low.size()), settings);
    EXPECT_EQ(report.status, DesignStatus::improved);
-   EXPECT_NE(report.message.find("not done after"), std::string::npos) << report.message;
+   EXPECT_NE(report.message.find("not converged after"), std::string::npos) << report.message;
    EXPECT_TRUE(std::isnan(report.stationarity) && std::isnan(report.complementarity));
    EXPECT_EQ(report.violation, 0); // there is no limit
 }

@@ -715,10 +715,11 @@ TEST(FrictionLaw, IsSavedAndRefusedWhereItIsNotKnown)
    other.laws.pop_back();
    expect_input_error([&] { other.validate(); }, "2 laws of friction for 3 nodes");
    other = problem;
-   for (const auto &[law, words] : {std::pair(points({{1, 0.3}, {1, 0.4}}), "the pressure must increase"),
-                                    {points({{1, 0.3}, {2, 0.2}}), "the pressure must increase"},
-                                    {points({{0, 0.1}}), "the pressure must increase"},
-                                    {points({}), "no points"}})
+   for (const auto &[law, words] :
+        {std::pair(points({{1, 0.3}, {1, 0.4}}), "the pressure must increase"),
+         {points({{1, 0.3}, {2, 0.2}}), "the pressure must increase"},
+         {points({{0, 0.1}}), "the pressure must increase"},
+         {points({}), "must have at least one point"}})
    {
       expect_input_error([&, of = law] { set_friction_law(other, of); }, words);
    }

@@ -653,7 +653,8 @@ TEST(HalfSpaceContact, SaysWhatItCannotTake)
    refused([](HalfSpace &bad) { bad.centres(0, 0) = NAN; }, "not finite");
    HalfSpace one = good;
    one.centres = Places::Zero(1, 2);
-   expect_input_error([&] { one.problem(VectorXd::Zero(1)); }, "one rectangle alone");
+   expect_input_error([&] { one.problem(VectorXd::Zero(1)); },
+                      "there is one rectangle, must be at least two");
    expect_input_error([&] { good.displacements(Places::Zero(1, 2), gap); }, "27");
    ReducedProblem problem = good.problem(gap);
    const ContactState virgin = ContactState::virgin(problem);

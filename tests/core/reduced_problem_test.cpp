@@ -164,17 +164,16 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
          p.set_stiffness(MatrixXd::Identity(3, 3), p.B(), p.C());
       },
       "sizes of A (3×3), B (2×2) and C (2×2) do not fit");
-   refused("the stiffness is 5×5 for the 2 nodes", [](auto &p)
+   refused("the stiffness is 5×5, must have 1, 2 or 3 rows and columns for each of the 2 nodes",
+           [](auto &p)
            { p.set_stiffness(MatrixXd::Identity(3, 3), MatrixXd::Zero(2, 3), p.C()); });
-   refused("the stiffness is 1×1 for the 2 nodes",
-           [](auto &p) { p.K = MatrixXd::Identity(1, 1); });
-   refused("the stiffness is 4×6 for the 2 nodes",
-           [](auto &p) { p.K = MatrixXd::Identity(4, 6); });
+   refused("the stiffness is 1×1, must have", [](auto &p) { p.K = MatrixXd::Identity(1, 1); });
+   refused("the stiffness is 4×6, must have", [](auto &p) { p.K = MatrixXd::Identity(4, 6); });
    refused("3 tangential components", [](auto &p)
            { p.set_stiffness(MatrixXd::Identity(6, 6), MatrixXd::Zero(2, 6), p.C()); });
    refused("must be the transpose of B", [](auto &p) { p.B()(0, 1) = 0; });
-   refused("said to be uncoupled, but B is not zero", [](auto &p) { p.coupled = false; });
-   refused("said to be coupled, but B is zero",
+   refused("`coupled` is false, but B is not zero", [](auto &p) { p.coupled = false; });
+   refused("`coupled` is true, but B is zero",
            [](auto &p)
            {
               p.B().setZero();

@@ -624,8 +624,9 @@ TEST(Sensitivity, DerivativesTimesChangesAreSummedOverAllParameters)
    change.wear = Eigen::Vector2d(100, 100); // of which no derivative is given
    EXPECT_EQ(by.dot(change), (10 + 2) + (5 - 8) + (20 + 11));
    change.stiffness = Eigen::Vector2d(1, 1);
-   expect_input_error([&] { by.dot(change); },
-                      "parameters: stiffness of 3 × 1 and of 2 × 1 entries");
+   expect_input_error(
+      [&] { by.dot(change); },
+      "parameters: stiffness is 3 × 1 in one and 2 × 1 in the other, must be equal");
 }
 
 // A response of another march has states of the same sizes, and derivatives that mean nothing.

@@ -309,7 +309,7 @@ TEST(Body, SaysWhatIsWrong)
       [&] {
          body.fix({{1}, 0, 5.0, 6.0}, 0);
       },
-      "no nodes on the boundary part");
+      "no nodes lie on the boundary part");
    expect_input_error([&] { body.fix({{1}, 0, 1.0, 0.0}, 0); }, "interval from 1 to 0");
    expect_input_error([&] { body.fix({{1}, 2, 0.0, 1.0}, 0); }, "axis of the interval is 2");
    expect_input_error([&] { body.fix({{1}, 0, nan_value, 1.0}, 0); }, "interval from nan");
@@ -321,7 +321,7 @@ TEST(Body, SaysWhatIsWrong)
       [&] {
          body.add_pressure("p", {{3}, 0, 7, 8}, 1.0);
       },
-      "nothing on the boundary part");
+      "no boundary elements lie on the boundary part");
    expect_input_error([&] { body.add_pressure("p", 3, nan_value); },
                       "pressure 'p': the value at");
    expect_input_error([&] { body.add_body_force("b", 0.0, nan_value); }, "body force 'b'");

@@ -744,8 +744,9 @@ TEST(Pairing, SaysWhichNodesHaveNoPartner)
    expect_input_error([&] { pair_lines(line1, line2); },
                       "of body 1 (5 nodes): (0.5, 0); of body 2 (5 nodes): (0.50001, 0)");
    // 1e-5 over the shorter distance of nodes there, 0.25 - 1e-5, and a little more.
-   expect_input_error([&] { pair_lines(line1, line2); },
-                      "a tolerance of 4.1e-05 would pair all; the nearest nodes are 0 apart");
+   expect_input_error(
+      [&] { pair_lines(line1, line2); },
+      "a tolerance of 4.1e-05 would pair all nodes; the nearest nodes are 0 apart");
    EXPECT_EQ(pair_lines(line1, line2, 4.1e-5).partner[2], 2);
    EXPECT_EQ(pair_lines(line1, line2, 1e-3).partner[2], 2);
    mfem::Mesh fine = rectangle_mesh(uniform(0, 1, 40), {-1, 0});

@@ -173,14 +173,16 @@ TEST(DeckMesh, RefusesInOneSentenceWithTheLine)
    says(both + "*ELEMENT, TYPE=CPE4\n8, 1, 2, 5\n",
         "element 8 is a CPE4 of 3 nodes, must have 4");
    says(both + "*ELEMENT, TYPE=CPE4\n8, 1, 2, 5, 9\n", "element 8 has node 9, which *NODE");
-   says(both + "*ELEMENT, TYPE=CAX4\n8, 1, 2, 5, 4\n", "plane and axisymmetric");
+   says(both + "*ELEMENT, TYPE=CAX4\n8, 1, 2, 5, 4\n",
+        "line 14: there are plane elements and those of CAX4, must be of one kind");
    says(both + "*ELEMENT, TYPE=T3D2\n8, 2, 5\n", "a line (T3D2), must be an edge");
    says(both + "*ELEMENT, TYPE=T3D2, ELSET=T\n8, 1, 2\n*SOLID SECTION, ELSET=T\n*SOLID "
                "SECTION, ELSET=LEFT\n*SOLID SECTION, ELSET=RIGHT\n",
         "is a T3D2 with a *SOLID SECTION");
    says(both + "*SURFACE, NAME=A\n7, S2\n",
         "line 14: face S2 of element 7 of surface 'A' is not on the boundary of the body");
-   says(both + "*SURFACE, NAME=A\n7, S5\n", "face 'S5' of surface 'A', must be S1 to S4");
+   says(both + "*SURFACE, NAME=A\n7, S5\n",
+        "surface 'A' has face S5 of element 7, but a CPE4R has no such face");
    says(both + "*SURFACE, NAME=A\nnone, S1\n", "line 14: there is no element set 'none'");
    says(both + "*ELSET, ELSET=A\n8\n", "line 14: there is no element 8");
    says(both + "*ELSET, ELSET=A, GENERATE\n7, 8\n", "must be between elements that are there");
@@ -193,7 +195,7 @@ TEST(DeckMesh, RefusesInOneSentenceWithTheLine)
    says(both + "*RIGID BODY\n", "a guide in the case does (key 'guides')");
    says(both + "*ELEMENT\n9, 1, 2, 3\n", "*ELEMENT has no TYPE, must have one");
    says(both + "*INCLUDE, INPUT=deck.inp\n", "is within that file itself, must name another");
-   says(both + "*ELGEN\n7, 2, 3, 1\n", "line 13: *ELGEN makes or moves nodes or elements");
+   says(both + "*ELGEN\n7, 2, 3, 1\n", "line 13: *ELGEN generates or moves nodes or elements");
    says("*NODE\n1, 0., 0., 1.\n2, 1., 0.\n3, 1., 1.\n*ELEMENT, TYPE=CPE3\n1, 1, 2, 3\n",
         "node 2 is at z = 0, the first one at 1");
    says("*INCLUDE, INPUT=none.inp\n", "none.inp'");

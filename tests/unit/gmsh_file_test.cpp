@@ -242,7 +242,7 @@ TEST(GmshFile, VolumesAreRefusedAsWhatTheyAre)
    out.text("\n$EndNodes\n$Elements\n1\n").integers({5, 1, 2});
    out.integers({1, 1, 1, 1, 2, 4, 3, 5, 6, 8, 7}).text("\n$EndElements\n");
    expect_input_error([file = out.close()] { read_mesh(file); },
-                      "element 1, a hexahedron: bodies are plane");
+                      "element 1, a hexahedron, but bodies must be plane");
 }
 
 } // namespace

@@ -67,7 +67,7 @@ TEST(Statements, SupportsAreThoseOfTheCalls)
    refused("9:x", "9");
    refused("@1:x", "'@1', must be a point");
    refused("@1,a:x", "'a' is not a number");
-   refused("@1,1.5:x", "(1, 1.5) is outside of the body");
+   refused("@1,1.5:x", "(1, 1.5) lies outside of the body");
 }
 
 TEST(Statements, LoadsAreThoseOfTheCalls)

@@ -172,7 +172,7 @@ std::string in_words(Ipopt::ApplicationReturnStatus status, int max_iterations)
    case Diverging_Iterates:
       return "the variables grow without end";
    case Maximum_Iterations_Exceeded:
-      return "not done after " + std::to_string(max_iterations) +
+      return "not converged after " + std::to_string(max_iterations) +
              " iterations, the largest number allowed";
    case Not_Enough_Degrees_Of_Freedom:
       return "there are more equations among the limits than variables";

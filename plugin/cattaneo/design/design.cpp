@@ -489,9 +489,11 @@ SmoothSolution Design::descend()
       if (kept > 0.01) { now = trial; }
    }
    last.outcome = ProgrammeOutcome::failed;
-   last.message = radius > 1e-12
-                     ? "not converged after all iterations"
-                     : "at this design nodes change their states, and derivatives jump";
+   last.message =
+      radius > 1e-12
+         ? "not converged after " + std::to_string(settings_.max_iterations) +
+              " iterations, the largest number allowed"
+         : std::string("at this design nodes change their states, and derivatives jump");
    return last;
 }
 
