@@ -5,13 +5,13 @@
 namespace cattaneo
 {
 
-/** The kernels of OpenBLAS that work in this process. OpenBLAS chooses them when the process
+/** The kernels of OpenBLAS that this process uses. OpenBLAS chooses them when the process
     starts, by the name of the processor. A processor that this version of OpenBLAS does not
     know may get kernels that are twenty years old. The environment variable OPENBLAS_CORETYPE,
     set before the process starts, chooses others. */
 struct BlasKernels
 {
-   std::string name; ///< OpenBLAS's own, as "Haswell"; empty with another BLAS or with none
+   std::string name; ///< OpenBLAS's name, such as "Haswell"; empty with another BLAS or none
    std::string
       better; ///< name of safe kernels that are far faster on this processor; empty: none
 

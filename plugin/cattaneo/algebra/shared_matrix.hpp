@@ -7,10 +7,10 @@
 namespace cattaneo
 {
 
-/// A sparse matrix by rows whose arrays belong to somebody else.
+/// A sparse matrix, stored by rows, whose arrays belong to another program.
 using SparseView = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>;
 
-/// Has the row an entry other than zero beside the one in column `own`?
+/// Does the row have an entry other than zero besides the one in column `own`?
 bool couples(const SparseView &K, int row, int own);
 
 /// A square sparse matrix by rows that another program may own. It is kept alive but not

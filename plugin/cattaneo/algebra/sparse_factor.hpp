@@ -43,13 +43,12 @@ public:
    };
 
    /// Factors K(keep, keep) + diag(shift on the trailing rows). `keep`: rows of K in any order,
-   /// of which the last `trailing` are the trailing ones. K is taken for symmetric: only one
-   /// triangle is read, and K is not kept. Throws NotPositiveDefinite (an InputError) naming
-   /// the row of K.
-   /// `nodes`: a number of each row of `keep`, the same for rows of one node. With it the order
-   /// is by nested dissection of the graph of nodes, where CHOLMOD was built with METIS: of
-   /// bodies in space its factor takes a half to a quarter of the work. Without it (and without
-   /// METIS) the order is one of constrained minimum degree.
+   /// of which the last `trailing` are the trailing ones. K is assumed to be symmetric: only
+   /// one triangle is read, and K is not kept. Throws NotPositiveDefinite (an InputError)
+   /// naming the row of K. `nodes`: a number for each row of `keep`, the same for rows of one
+   /// node. With it, and if CHOLMOD was built with METIS, rows are ordered by nested dissection
+   /// of the graph of nodes. For bodies in space the factor then takes a half to a quarter of
+   /// the work. Otherwise the order is one of constrained minimum degree.
    SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing, double shift,
                 Backend backend = Backend::automatic, const std::vector<int> &nodes = {});
    ~SparseFactor();

@@ -33,7 +33,7 @@ struct AssembledBody
    std::vector<int>
       fixed;         ///< sorted: fixed, prescribed by a load of displacements, or a block's
    DofPlaces places; ///< of all dofs
-   std::vector<BodyLoad> loads; ///< each of a name of its own
+   std::vector<BodyLoad> loads; ///< with different names
    /// True if K may resist rigid motions (elastic foundations, springs that do not connect x
    /// with y): motions that K resists then count as supported. False: all rigid motions that
    /// the supports leave count as free. A body is then refused if contact nodes and supports
@@ -45,12 +45,13 @@ struct AssembledBody
 
    /** Rows of supports that the program which wrote K has eliminated: rows that are not fixed
        and have only their diagonal, or no entry at all, while other rows of the same component
-       have more. Entries below 1e-12 of the largest one beside a diagonal count as none, unless
-       the diagonal is as small. So do those that are round-off of a large diagonal. Such a row
-       is a support for all others, to round-off, whether it was eliminated or is a much stiffer
-       spring. condense() takes these rows as fixed if the body is `grounded`. Otherwise it
-       refuses them, because as springs they would not move the body. If no row of a component
-       is connected to another row, the component is a bed of springs and is kept. */
+       have more. Entries off the diagonal count as zero if they are below 1e-12 of the largest
+       such entry, unless the diagonal is as small, or if they are round-off of a large
+       diagonal. An eliminated row is a support for all others, to round-off, whether it was
+       eliminated or is a much stiffer spring. condense() takes these rows as fixed if the body
+       is `grounded`. Otherwise it refuses them, because as springs they would not move the
+       body. If no row of a component is connected to another row, the component is a bed of
+       springs and is kept. */
    std::vector<int> eliminated() const;
    /// A warning about eliminated() rows that condense() takes as fixed. Empty if there are
    /// none.

@@ -22,8 +22,8 @@ namespace cattaneo
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        const CondensedBody *alike = nullptr);
 /// The same in space, to the nodes of a surface. InputError also if a support holds one or two
-/// components of a node, and its angle to the surface is more than 10 degrees away from both 0
-/// and 90.
+/// components of a node, at an angle to the surface that is more than 10 degrees away from both
+/// 0 and 90.
 CondensedBody condense(const AssembledBody &body, const ContactSurface &surface,
                        const CondensedBody *alike = nullptr);
 

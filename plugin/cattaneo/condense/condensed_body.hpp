@@ -32,7 +32,7 @@ public:
     the twist whatever the line's frames. In space u = {v₁; v₂; w} in the frames of the surface:
     all first tangents, all second ones, then the normals.
 
-    Of the program that assembled the body only the matrix is kept. */
+    Only the matrix of the program that assembled the body is kept. */
 class CondensedBody
 {
 public:
@@ -47,7 +47,7 @@ public:
    /// across the held direction. Then w is its opening along the normal of the line, and p the
    /// force along that normal, part of which the support carries. See directions().
    std::vector<int> held;
-   /// Thickness of a plane body, for which all forces are. See thicken().
+   /// Thickness of a plane body. All forces are those of this thickness. See thicken().
    double thickness = 1;
    /// Prescribed displacements of held components per unit multiplier: {x; y} of all contact
    /// nodes, 2n × patterns, zero elsewhere. Empty if no load moves a held component.
@@ -70,13 +70,13 @@ public:
        condensed by conjugate gradients: from the difference of S u and the action of the
        operator, in double precision.) Materials or elements of great contrast within one body
        cost digits: 1e-3 means that stiffnesses, and displacements under given forces, have an
-       error of 0.1 %. Infinite: for some motion no digit is correct. A few solves with the kept
-       factor. Collective. */
+       error of 0.1 %. Infinite: for some motion no digit is correct. Costs a few solves with
+       the kept factor. Collective. */
    double error_estimate();
 
    /// Multiplies the thickness of a plane body, and with it S, H and the forces of patterns.
-   /// Pressures are forces over the area of the thinner one of two bodies. InputError about an
-   /// axis, or unless it is positive and finite.
+   /// Where two bodies touch, the area in a pressure is that of the thinner one. InputError for
+   /// an axisymmetric body, or unless the factor is positive and finite.
    void thicken(double times);
 
    /// Number of contact nodes.
@@ -99,7 +99,7 @@ public:
    /// Does a load move a component (0: x or r, 1: y or z) of a node?
    bool moves(Eigen::Index node, int component) const;
 
-   std::shared_ptr<const BodySolver> solver; ///< shared by copies, of the free components
+   std::shared_ptr<const BodySolver> solver; ///< of the free components; shared by copies
 
 private:
    /// Positions in {x; y} (in space {x; y; z}) of all nodes of the components that are free.

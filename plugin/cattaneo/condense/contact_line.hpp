@@ -71,10 +71,10 @@ struct LineChain
    Eigen::Index nodes = 0; ///< how many of them follow
    bool loop = false;      ///< the last node is followed by the first
    /** How the boundary of the body goes on beyond the first and the last node, under any
-       attribute. It goes on smoothly if it turns by less than smooth_turn. Up to corner_turn it
-       may also turn 1.5 times as much as the line itself between its last two elements, because
-       a polygon stands for a curve. Else there is a corner. A loop goes on smoothly. Unknown if
-       there is no next outer edge. */
+       attribute. It goes on smoothly if it turns by less than smooth_turn. It also does so, as
+       a polygon that stands for a curve, if it turns by less than corner_turn and by at most
+       1.5 times the turn of the line itself between its last two elements. Otherwise there is a
+       corner. A loop goes on smoothly. Unknown if there is no next outer edge. */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    /// Elements in their order along the chain. Without them it is not known whether the
    /// elements of two lines match, and nodes are paired by places and weights only.
@@ -122,8 +122,8 @@ struct ContactLine
    Formulation formulation = Formulation::plane; ///< determines the meaning of dofs and weights
    std::vector<LineNode> nodes;                  ///< along the boundary, chain after chain
    std::vector<LineChain> chains; ///< in the order of the nodes, each node on one
-   /// Gaps are those of the elements themselves, not of the smooth curves of which they may be
-   /// chords (LineElement::bend).
+   /// True: gaps are those of the elements themselves, not of the smooth curves of which they
+   /// may be chords (LineElement::bend).
    bool as_meshed = false;
 
    /// Number of contact nodes.
@@ -132,10 +132,10 @@ struct ContactLine
    /// (LineElement::bend). Zero at the ends of elements, and for nodes that were moved onto the
    /// curves.
    Eigen::MatrixX2d off_curves() const;
-   /// n × 2: points from which gaps are measured, on those curves; if as meshed the nodes
+   /// n × 2: points from which gaps are measured, on those curves; if `as_meshed`, the nodes
    /// themselves.
    Eigen::MatrixX2d outline() const;
-   /// n × 2: distances of the nodes from curves on which gaps are not measured. If as meshed
+   /// n × 2: distances of the nodes from curves on which gaps are not measured. If `as_meshed`,
    /// these are all curves, else those to which elements may belong (LineElement::possible).
    Eigen::MatrixX2d off_unmeasured() const;
    /// n × 2: distances of the outline from the chords that were taken for smooth curves.
@@ -159,9 +159,9 @@ struct ContactLine
       return all;
    }
 
-   /// Smallest ratio of the distances of a node to its neighbours. At this ratio the traction
-   /// at the middle node of a short quadratic element has three correct digits. Each further
-   /// decade costs two.
+   /// Smallest allowed ratio of the distances of a node to its two neighbours. At this ratio
+   /// the traction at the middle node of a short quadratic element has three correct digits.
+   /// Each further decade costs two.
    static constexpr double least_ratio = 1e-6;
 
    /// InputError that names the node or the element. There must be nodes, with finite places
@@ -174,11 +174,11 @@ struct ContactLine
 /// The angle between two directions, 0 to π.
 double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other);
 
-/** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
-    lines, one after the other, each once. A node that two lines share (the end of one is the
-    beginning of the other) has the frame of the first line, and is removed from the chains of
-    later ones. The result is as_meshed if all lines are. InputError if the lines are of
-    different formulations, or of none. */
+/** The trace of a body with several interfaces, for one condensation: the nodes of all lines,
+    one after the other, each once. A node that two lines share (the end of one is the beginning
+    of the other) has the frame of the first line, and is removed from the chains of later ones.
+    The result is as_meshed if all lines are. InputError if the lines are of different
+    formulations, or if there is no line. */
 ContactLine joined(const std::vector<ContactLine> &lines);
 
 /// Gives the elements of a line the known curves of its side (SmoothSides::chords of a mesh,

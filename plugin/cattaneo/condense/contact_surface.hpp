@@ -36,12 +36,12 @@ struct SurfaceNode
 
     The displacement of a middle is 3/5 of its unknown and 1/5 of each end's; that of a corner
     is its unknown. Displacements, gaps and forces of the reduced problem are those of the
-    unknowns, at_nodes() and forces_at_nodes() turn them into those of the nodes.
+    unknowns. at_nodes() and forces_at_nodes() convert them to those of the nodes.
 
     The normal of a node is the mean of its faces' normals, by their share of the node's weight.
     Its first tangent is the axis that lies nearest to the surface (x before y before z), turned
-    into it. Where supports hold components of a node, condense() turns its frame so that it has
-    the held axes. */
+    into it. Where supports hold components of a node, condense() turns its frame so that the
+    held axes are among its axes. */
 struct ContactSurface
 {
    std::vector<SurfaceNode> nodes; ///< each once
@@ -55,19 +55,20 @@ struct ContactSurface
    Eigen::Index size() const { return static_cast<Eigen::Index>(nodes.size()); }
    /// n × 3, places of all nodes.
    Eigen::MatrixX3d positions() const;
-   /// n × 3, places of the unknowns, about which their forces have the moments of those of the
-   /// nodes: the places of the nodes but in the middle of curved edges.
+   /// n × 3, places of the unknowns: forces on the unknowns there have the moments of the
+   /// forces on the nodes. They are the places of the nodes, except in the middle of curved
+   /// edges.
    Eigen::MatrixX3d points() const;
    /// The weights of all nodes, n.
    Eigen::VectorXd weights() const;
 
-   /// Has it nodes whose unknown is not their displacement?
+   /// Does it have nodes whose unknown is not their displacement?
    bool has_middles() const;
-   /// Values at the nodes (displacements, gaps; n rows) of those of the unknowns.
+   /// Converts values of the unknowns (displacements, gaps; n rows) to those at the nodes.
    Eigen::MatrixXd at_nodes(Eigen::MatrixXd unknowns) const;
    /// The other way round.
    Eigen::MatrixXd of_nodes(Eigen::MatrixXd values) const;
-   /// Forces on the nodes (n rows) of those on the unknowns, which do the same work.
+   /// Converts forces on the unknowns to those on the nodes that do the same work (n rows).
    Eigen::MatrixXd forces_at_nodes(Eigen::MatrixXd on_unknowns) const;
    /// The other way round.
    Eigen::MatrixXd forces_of_nodes(Eigen::MatrixXd on_nodes) const;
@@ -81,7 +82,7 @@ struct ContactSurface
 /// A right-handed frame with this normal (a unit vector); rows as in SurfaceNode::frame.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d &normal);
 
-/** The surface of faces of 3, 4, 6, 8 or 9 nodes, whichever way they turn.
+/** The surface of faces of 3, 4, 6, 8 or 9 nodes, in either sense around each face.
     @param faces   numbers of nodes around each face, in the order of ContactSurface::faces
     @param node    returns dofs and position of a node; called once for each
     @param inside  a direction from the face of that number into the body, not along it
@@ -93,7 +94,7 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
                           const std::function<Eigen::Vector3d(std::size_t)> &inside,
                           const std::string &where);
 
-/** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
+/** The trace of a body with several interfaces, for one condensation: the nodes of all
     surfaces, each once, and all faces. A node that several surfaces share has the frame of the
     first, and the weight of all. InputError if there is no surface. */
 ContactSurface joined(const std::vector<ContactSurface> &surfaces);

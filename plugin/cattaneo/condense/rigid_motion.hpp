@@ -9,7 +9,7 @@
 namespace cattaneo
 {
 
-/// Where each true dof sits: its node's coordinates and its component.
+/// The place of each true dof: its node's coordinates and its component.
 struct DofPlaces
 {
    Eigen::VectorXd x;          ///< coordinate of the node of each dof, r about an axis
@@ -18,27 +18,27 @@ struct DofPlaces
    Formulation formulation = Formulation::plane; ///< decides which motions are rigid
    Eigen::VectorXd z = {};                       ///< in space the third coordinate, else none
 
-   /// Coordinates of the node of a dof; z is 0 but in space.
+   /// Coordinates of the node of a dof; z is 0 except in space.
    Eigen::Vector3d place(int dof) const
    {
       return {x[dof], y[dof], formulation == Formulation::space ? z[dof] : 0.0};
    }
-   /// The same in messages: "(x, y)", in space "(x, y, z)".
+   /// The same as a text for messages: "(x, y)", in space "(x, y, z)".
    std::string called(int dof) const;
 };
 
-/** Rigid motions at a place, of displacements there: as columns the translations, then the
-    rotations about `centre`. In the plane two and one, in space three and three (about x, y
-    and z); the third component of a plane place is 0.
+/** Displacements of a place in rigid motions, as columns: the translations, then the rotations
+    about `centre`. In the plane two and one, in space three and three (about x, y and z); the
+    third component of a plane place is 0.
     @param dimension 2 or 3, the rows */
 Eigen::MatrixXd rigid_at(const Eigen::Vector3d &place, const Eigen::Vector3d &centre,
                          int dimension);
 
 /** Rigid motions of a set of dofs (plane: x, y, rotation; in space three translations and three
     rotations; axisymmetric: along the axis; torsion: about it) that vanish at the held ones, as
-   independent columns over the dofs of the set, each scaled to a largest entry of about 1. The
-   rank is decided at the scale of the held nodes' own spread, so that a small patch holds a
-   large body as well as a large one does. */
+    independent columns over the dofs of the set, each scaled to a largest entry of about 1. The
+    rank is decided relative to the distances between the held nodes, so that a small patch
+    holds a large body as well as a large patch does. */
 Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
                                    const std::vector<bool> &held);
 

@@ -43,9 +43,10 @@ struct SidePolygon
    /// The curve of the file on which each edge is (an entity of Gmsh), -1: not known. Empty:
    /// not known for any edge.
    std::vector<int> curves = {};
-   /// Directions in which the boundary goes on beyond the ends; zero if not known, or at no
-   /// plane of symmetry. If the direction is nearly normal to the side, and the side meets its
-   /// mirror image there as smoothly as its own edges meet, the curve goes on as that image.
+   /// Directions in which the boundary goes on beyond the ends; zero if it is not known, or if
+   /// the end is on no plane of symmetry. If the direction is nearly normal to the side, and
+   /// the side meets its mirror image there as smoothly as its own edges meet, the curve goes
+   /// on as that image.
    std::array<Eigen::Vector2d, 2> beyond{Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0)};
 
    static constexpr double corner = 31;        ///< degrees: a circle of twelve edges has 30
@@ -62,22 +63,24 @@ struct SidePolygon
     2. The run of turns. A vertex is a corner if it turns much more, or less, than the vertices
     beside it suggest, as at a chamfer with straight flanks. If no curve is known, an arc needs
     four turns in a row in one direction, or three equal ones; with less it is taken for a
-    chamfer. If a third of the vertices around a vertex turn to and fro, it belongs to a
-    measured profile, which stays a polygon.
+    chamfer. If a third of the vertices around a vertex turn left and right alternately, it
+    belongs to a measured profile, which stays a polygon.
     3. The angle: a turn of more than `corner` degrees (within one of the file's curves
        `corner_within`) is a corner.
 
     Between corners the curvature is that of circles through three vertices, linear within an
     edge; where it jumps (an arc that joins a straight flank) it is taken from the side on which
     it changes less, so that the flank stays straight. Circles are exact, whatever the distances
-    of their vertices; other curves have an error of fourth order in the length of the edges.
-    Open ends are one-sided, or mirrored (SidePolygon::beyond), loops periodic. */
+    of their vertices; other curves have an error of fourth order in the length of the edges. At
+    open ends the curvature is one-sided, or mirrored (SidePolygon::beyond); in loops it is
+    periodic. */
 std::vector<EdgeBend> smooth_curve(const SidePolygon &side);
 
-/** The arcs whose chords edges may be, although smooth_curve() keeps a polygon: the vertices
-    turn equally, but are too few, or lie among others that turn to and fro. Straight elsewhere,
-    above all at corners and where the file says that edges are straight. Gaps are not measured
-    on these curves, but the estimates of chordal errors use them. */
+/** The arcs of which edges may be chords, although smooth_curve() keeps a polygon: the turns at
+    the vertices are equal, but the vertices are too few, or lie among others that turn left and
+    right alternately. Straight elsewhere, above all at corners and where the file says that
+    edges are straight. Gaps are not measured on these curves, but the estimates of chordal
+    errors use them. */
 std::vector<EdgeBend> possible_curve(const SidePolygon &side);
 
 } // namespace cattaneo

@@ -13,7 +13,8 @@ struct CondenseSettings
    /// on all ranks. A smaller one is gathered and factored by the first rank. At the default a
    /// factor takes some 1.4 GB (docs/ranks.md).
    int direct_dofs = 500000;
-   /// Most iterations of conjugate gradients for each right-hand side. More are an InputError.
+   /// Most iterations of conjugate gradients for each right-hand side. InputError if more are
+   /// needed.
    int max_iterations = 2000;
 
    /// InputError naming the setting, its value and what is allowed.

@@ -20,7 +20,7 @@ struct BoundarySide
    BoundaryPart part = BoundaryPart(1); ///< part of its boundary; not used for a rigid obstacle
 };
 
-/// Interface of MFEM bodies, see there.
+/// An Interface (see there) between MFEM bodies.
 struct BoundaryInterface
 {
    std::string name;                              ///< unique among the interfaces
@@ -31,9 +31,9 @@ struct BoundaryInterface
    /// In lengths of an element; a larger overlap is an error
    double most_overlap = Interface().most_overlap;
    bool tied = false; ///< joined permanently
-   /// Gaps are those of the meshes' edges. Otherwise straight edges whose vertices lie as on a
-   /// smooth curve are taken for its chords (smooth_curve()), and gaps are measured between the
-   /// curves, without changing the meshes. With elements of order 2 or more it is better to
+   /// True: gaps are those of the meshes' edges. False: straight edges whose vertices lie as on
+   /// a smooth curve are taken for its chords (smooth_curve()), and gaps are measured between
+   /// the curves, without changing the meshes. With elements of order 2 or more it is better to
    /// call curve_sides() before the bodies are made, which moves their nodes onto the curves.
    bool as_meshed = false;
 };

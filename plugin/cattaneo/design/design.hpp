@@ -69,9 +69,10 @@ struct DesignProblem
 /// Variables that are the columns of G (n × number of variables), added to the gap.
 std::vector<Parameters> gap_variables(const Eigen::MatrixXd &G);
 
-/** Adds limits of the second differences of the gap along each chain of nodes: its curvature at
-    each node that has two neighbours, positive where it opens to both sides, is to lie between
-    `least` and `most`. InputError if variables or positions along the line are missing. */
+/** Adds limits for the second differences of the gap along each chain of nodes: its curvature
+    at each node that has two neighbours, positive where it opens to both sides, is to lie
+    between `least` and `most`. InputError if variables or positions along the line are missing.
+    */
 void limit_curvature(DesignProblem &problem, double least, double most);
 
 /// The first row of `limits` that L x violates by more than `tolerance` times the sum of the
@@ -81,7 +82,7 @@ Eigen::Index violated_limit(const DesignProblem &problem, const Eigen::VectorXd 
 
 /** Other starts for a search: `count` points that are spread evenly over the box of the bounds
     (the sequence of the generalised golden ratio). A point that violates limits is replaced by
-    the place that is reached on the way from `start` to it, along limits on the way. InputError
+    the place that is reached from `start` toward it, along the limits that are met. InputError
     unless `start` is within bounds and limits. */
 std::vector<Eigen::VectorXd> spread_starts(const DesignProblem &problem,
                                            const Eigen::VectorXd &start, int count);
@@ -94,7 +95,7 @@ enum class DesignStatus
                    ///< message
    no_equilibrium, ///< the marches at the start do not reach their end
    unavailable,    ///< built without Ipopt
-   stopped         ///< the monitor asked for it: the best so far (no traces: none)
+   stopped         ///< by the monitor: the best design so far (no traces: none)
 };
 
 /// As it is printed, in words.
@@ -135,8 +136,8 @@ struct DesignReport
    /// The conditions of optimality (Karush, Kuhn and Tucker), as they hold there, formed anew
    /// from the derivatives. Largest entry of the gradient of the Lagrangian, over the largest
    /// derivative of a response by that variable at the start; product of a multiplier with the
-   /// distance from what it belongs to, over the objective at the start. NaN: not known, as the
-   /// search ended without multipliers.
+   /// distance from its bound or limit, over the objective at the start. NaN: not known,
+   /// because the search ended without multipliers.
    double stationarity = std::nan("");
    double complementarity = std::nan(""); ///< see above
    /// Largest violation of a limit. Its unit is the most that one variable changes the limit

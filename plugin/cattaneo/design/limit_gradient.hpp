@@ -14,7 +14,7 @@ struct LimitGradient
    Eigen::VectorXd friction;  ///< by f of each node, size n; of a friction limit, none
    Eigen::VectorXd constant;  ///< by the constant multiplier of each pattern
    Eigen::MatrixXd varying;   ///< by the varying one at each vertex, patterns × vertices
-   double load_factor = 0;    ///< of a friction limit: by the load factor it is of
+   double load_factor = 0;    ///< of a friction limit: by its load factor
    Eigen::VectorXd gap;       ///< by the gap that the closed contact bridges, size n
    Eigen::VectorXd stiffness; ///< by each StiffnessChange
 };

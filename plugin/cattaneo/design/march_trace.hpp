@@ -37,8 +37,8 @@ struct MarchTrace
    /// of Responses. Without coefficients nothing wears.
    WearLaw wear;
 
-   /// Index of the last state that was reached by a time of the history. InputError if the
-   /// march began later or ended earlier.
+   /// Index of the last state that was reached not later than a time of the history. InputError
+   /// if the march began later or ended earlier.
    std::size_t at(double time) const;
    /// Index of the last state.
    std::size_t last() const { return states.size() - 1; }
@@ -69,8 +69,8 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
 /** A node that meets the laws of two states at once at the end of an increment: it touches
     without force, or lies on the friction limit without having slipped. The effect of a
     parameter then depends on the sign of its change: derivatives are one-sided, and belong to
-    the state that the trace has. With the other state in its place (ContactState::status) they
-    are those of the other side. */
+    the state that the trace has. With the other state in ContactState::status they are those of
+    the other side. */
 struct Tie
 {
    std::size_t state = 0;              ///< of the trace
@@ -79,12 +79,13 @@ struct Tie
    NodeState other = NodeState::stick; ///< that obeys the laws as well
 };
 
-/** All ties of a trace, in its order. Within `tolerance` of the largest nodal force so far, by
-    the node's own stiffness. The node at whose change of state an increment ends on the exact
-    path is no tie, because the path goes on smoothly with its new state; other nodes that
-    change at the same load are ties. At the start of an exact path nodes that touch without
-    force are ties (state 0): with a larger gap they would close later on the way, and the
-    derivatives of that side belong to another path than this trace.
+/** All ties of a trace, in its order. The laws may be missed by `tolerance` of the largest
+    nodal force so far; lengths become forces by the node's own stiffness. The node at whose
+    change of state an increment ends on the exact path is no tie, because the path goes on
+    smoothly with its new state; other nodes that change at the same load are ties. At the start
+    of an exact path nodes that touch without force are ties (state 0): with a larger gap they
+    would close later on the way, and the derivatives of that side belong to another path than
+    this trace.
 
     A tie need not matter. If a cycle returns to its largest load, all nodes that slipped are
     ties; as long as the loads vary together, both sides have the same derivative. */

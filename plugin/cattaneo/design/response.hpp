@@ -12,14 +12,14 @@ struct StateWeights
    Eigen::VectorXd displacements; ///< {v; w}
    Eigen::VectorXd forces;        ///< {q; p}
    Eigen::VectorXd multipliers;   ///< of the load patterns
-   Eigen::VectorXd conjugates;    ///< of these, see conjugates()
+   Eigen::VectorXd conjugates;    ///< of their conjugates
    Eigen::VectorXd loss;          ///< of each node over the increment that ends in the state
-   Eigen::VectorXd worn;          ///< of the depth of each node that it wears off
+   Eigen::VectorXd worn;          ///< of the depth that it wears off at each node
 };
 
-/** A number that a march returned, with its derivatives by the states of the trace: what
-    Sensitivity differentiates by parameters. Values of Responses, and their sums, products and
-    quotients. */
+/** A number that a march returned, with its derivatives by the states of the trace. Sensitivity
+    differentiates it by parameters. Responses returns such numbers; their sums, products and
+    quotients are such numbers too. */
 struct Response
 {
    double value = 0;                            ///< the number itself
@@ -50,8 +50,8 @@ Response operator*(const Response &a, const Response &b);
 Response operator/(const Response &a, const Response &b);
 
 /** The numbers of a trace. States are given by their index in it (MarchTrace::at(), last());
-    InputError for one that it does not have, for a node or a component that the problem does
-    not have and for a pattern of another name. */
+    InputError for a state that the trace does not have, and for a node, a component or a
+    pattern that the problem does not have. */
 class Responses
 {
 public:
@@ -85,8 +85,8 @@ public:
                             int component = 0) const;
    /// Sum of p times lever arms (size n; empty: 1).
    Response normal_resultant(std::size_t state, const Eigen::VectorXd &arm = {}) const;
-   /// Load multiplier of a pattern and its conjugate, see conjugates(). InputError of the
-   /// latter if H is not known.
+   /// Load multiplier of a pattern, and its conjugate (see conjugates(); InputError if H is not
+   /// known).
    Response multiplier(std::size_t state, const std::string &pattern) const;
    /// Conjugate of a load: the displacement of a force, the reaction of a displacement.
    Response conjugate(std::size_t state, const std::string &pattern) const;

@@ -20,8 +20,8 @@ struct StiffnessChange
    Eigen::MatrixXd H; ///< of ReducedProblem::H; no rows: it does not change
 };
 
-/// All stiffnesses by the same factor, per unit of it: K and the forces of prescribed
-/// displacements themselves, and -H of applied forces. It is valid for one body on a rigid
+/// The change of all stiffnesses by one factor, per unit of it: K and the forces of prescribed
+/// displacements themselves, and -H for applied forces. It is valid for one body on a rigid
 /// obstacle, or for bodies that change together. InputError if patterns of both controls act on
 /// each other in H.
 StiffnessChange stiffness_scale(const ReducedProblem &problem);
@@ -72,7 +72,7 @@ struct TraceChange
 /** Derivatives of what a march returned by its parameters, exact in the discrete problem: by
     friction and gap of each node, by the load multipliers of the history, by changes of the
     stiffness and, where the trace has a law of wear, by its k of each node. Where depth is
-    added to the gap (trace_wear()) all of it is followed through.
+    added to the gap (trace_wear()), its effect on all later states is included.
 
     At the end of each increment the states of the nodes stand for linear equations,
 
@@ -80,7 +80,7 @@ struct TraceChange
         separation  q = 0,  p = 0                   backward slip  q - f p = 0,  w = -g
 
     (with two tangential components a slip q |Δv| + f p Δv = 0 opposes its direction) whose
-    derivative carries the memory: the slip before. Where an increment ends at a change of state
+    derivatives contain those of the slip before. Where an increment ends at a change of state
     on the exact path, the loads there are one more unknown, and the boundary that the node has
     met one more equation.
 
@@ -90,7 +90,7 @@ struct TraceChange
 
     Derivatives are those of the march as it was cut into increments, with the states that its
     nodes had; where a node has two at once they are one-sided, see ties(). The state at the
-    start is given and changes with nothing.
+    start is given and does not depend on the parameters.
 
     If the states leave a body free (it touches at one node, or slips everywhere), only the
     history determines its place, and this free motion is assumed not to change. Derivatives of

@@ -58,7 +58,7 @@ public:
                Formulation formulation = Formulation::plane);
 
    /// Young's modulus and Poisson's ratio that vary: numbers, functions of (x, y) or
-   /// coefficients of MFEM, which must outlive the body. Ranges as Material has them
+   /// coefficients of MFEM, which must outlive the body. They must be in the ranges of Material
    /// (InputError that names the point).
    ElasticBody(mfem::Mesh &mesh, int order, Field young, Field poisson,
                Formulation formulation = Formulation::plane,
@@ -66,8 +66,8 @@ public:
 
    /// The user's own symmetric operator on the true dofs of an H1 space of 2 components, in
    /// torsion 1 (orthotropic, user integrators, …). Copies the matrix; the space must outlive
-   /// the body. Nothing is eliminated from the matrix: a displacement of dofs whose rows are
-   /// nothing but a diagonal is refused by condense().
+   /// the body. Nothing is eliminated from the matrix: condense() refuses to displace dofs
+   /// whose rows have only a diagonal.
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
                Formulation formulation = Formulation::plane);
 
@@ -111,7 +111,7 @@ public:
    /// Traction (t_x, t_y) on a boundary part, force per area.
    void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &tx,
                      const Field &ty);
-   /// A boundary part as loads see it, cut at the ends of its interval.
+   /// A boundary part on which loads act, cut at the ends of its interval.
    struct Extent
    {
       double size = 0;              ///< its length; about an axis its area
@@ -135,10 +135,10 @@ public:
    void add_displacement(const std::string &pattern, const BoundaryPart &part,
                          const mfem::GridFunction &u);
 
-   /** A part that moves as a rigid block. Its loads are patterns like all others, and may have
-       other parts too. InputError if a node of the part is held, moved or guided already, for a
-       load without a name, of torsion, and about an axis for any motion except one along it.
-       Not for a body on several ranks. */
+   /** A part that moves as a rigid block. Its loads are patterns like all others, and may act
+       on other parts too. InputError if a node of the part is held, moved or guided already,
+       for a load without a name, for a torsion body, and in axisymmetry for any motion except
+       that along the axis. Not for a body on several ranks. */
    void guide(const BoundaryPart &part, const Guide &guide);
    /// Motions of guides that are free or under forces.
    const std::vector<BlockMotion> &blocks() const { return blocks_; }
@@ -179,8 +179,8 @@ public:
    const StressLaw &stress_law() const { return stress_law_; }
    /// Whether stress_at() can compute stresses.
    bool has_stress() const { return has_material() || stress_law_; }
-   /// The sum over all patterns that have one, at the point that is set. InputError if one of
-   /// these is not among the loads.
+   /// The sum of the initial strains of all patterns, at the point that is set. InputError if a
+   /// pattern that has one is not among the loads.
    Strain initial_strain(mfem::ElementTransformation &at, const NamedLoads &loads) const;
 
    /// True dof of component c of the scalar node (local dof) of the space, -1 if it depends on

@@ -13,7 +13,7 @@ struct Rotation
 };
 
 /// The largest rotation at the centre of an element, ½ (∂u_y/∂x - ∂u_x/∂y), of displacements at
-/// the body's true dofs. Not of torsion. Collective.
+/// the body's true dofs. Not for torsion. Collective.
 Rotation largest_rotation(const ElasticBody &body, const Eigen::VectorXd &displacement);
 
 } // namespace cattaneo

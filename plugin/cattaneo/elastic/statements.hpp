@@ -42,8 +42,8 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
                   const BodyTerms &terms = {});
 
-/// Boundary attributes that supports hold, in any component, without nodes at points.
-/// InputError as of add_supports().
+/// Boundary attributes that supports hold, in any component. Supports of single nodes at points
+/// are left out. InputError as of add_supports().
 std::vector<int> supported_attributes(const std::string &called, const std::string &text,
                                       const BodyTerms &terms = {});
 

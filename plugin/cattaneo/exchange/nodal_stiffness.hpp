@@ -122,7 +122,7 @@ public:
        are known. The side of the body follows from K. */
    ContactSurface contact_surface(const std::vector<Nodes> &on) const;
 
-   /// (x, y, z) of a node; z is 0 but in space.
+   /// (x, y, z) of a node; z is 0 except in space.
    Eigen::Vector3d place(int node) const;
 
    /// Number of each dof's row; InputError for a direction that does not exist, a second row of
@@ -132,7 +132,7 @@ public:
    void validate() const;
 
 private:
-   /// One for each node, -1 if there is none and that is allowed.
+   /// The row of each node in this direction, -1 if there is none and that is allowed.
    std::vector<int> rows_of(const Nodes &nodes, int direction, bool missing_allowed) const;
    double axis() const; ///< nodes at smaller r are on it
    /// Outer faces of nodes, as contact_surface() finds them.

@@ -19,16 +19,16 @@ namespace cattaneo
     - `.npz`, places in `.dofs`: scipy.sparse.save_npz(…, compressed=False), or an array K;
       without a `.dofs` if it has the arrays that write_npz() writes
 
-    An `.inp` gives nodes, elements (so that contact lines follow outer edges), sets, and what
-    its steps load: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card with
-    displacements a load "BOUNDARY1", …; zero ones are supports. With elements SPRING1 or
+    An `.inp` gives nodes, elements (so that contact lines follow outer edges), sets, and the
+    loads of its steps: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card
+    with displacements a load "BOUNDARY1", …; zero ones are supports. With elements SPRING1 or
     SPRING2 a body without supports need not be free. Without plane elements a comment **
-    AXISYMMETRIC says that x is r. Supports that CalculiX took out of the matrix,
-    all of those of its step, have no row here either. Rows with 1e36 on the diagonal, supports
-    of ABAQUS, are fixed, and uncoupled from the others: they may be on contact nodes, and
-    cannot be moved. Internal nodes of ABAQUS (negative numbers) are eliminated. Of CalculiX's
-   axisymmetric elements, flat wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it
-   are the wedge's.
+    AXISYMMETRIC says that x is r. Supports that CalculiX took out of the matrix, all of those
+    of its step, have no row here either. Rows with 1e36 on the diagonal, supports of ABAQUS,
+    are fixed, and uncoupled from the others: they may be on contact nodes, and cannot be moved.
+    Internal nodes of ABAQUS (negative numbers) are eliminated. Of CalculiX's axisymmetric
+    elements, flat wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it are the
+    wedge's.
 
     A `.dofs` file has a line `node direction x y` for each row, in their order. It may also
     have lines `axisymmetric`, `set NAME nodes…`, `fixed node direction`, `force LOAD node

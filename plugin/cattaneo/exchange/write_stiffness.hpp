@@ -31,9 +31,9 @@ void write_matrix_market(const std::string &file, const NodalStiffness &stiffnes
 
 /** ABAQUS: a linear user element of all nodes (*USER ELEMENT, *MATRIX, TYPE=STIFFNESS, the
     lower triangle by rows), and beside it, `.inp` for `.mtx`, a deck with its nodes, sets,
-    element, supports and one *CLOAD card a load of forces; a comment, ** AXISYMMETRIC, says of
-    a body of revolution that it is one. Nodes that are counted from 0 are counted from 1 there.
-    InputError if loads prescribe displacements. */
+    element, supports and one *CLOAD card a load of forces; the comment ** AXISYMMETRIC marks a
+    body of revolution. Nodes that are counted from 0 are counted from 1 there. InputError if
+    loads prescribe displacements. */
 void write_abaqus(const std::string &file, const NodalStiffness &stiffness);
 
 /** Nastran: a bulk data file with the matrix as DMIG `KAAX` (symmetric, double precision, with

@@ -16,14 +16,14 @@ struct MarchedStates
    const ReducedProblem &problem; ///< of both states
    const ContactState &pressed;   ///< after the normal load, before the cyclic loads
    const ContactState &peak;      ///< of the cyclic loads
-   /// The other end of the cycle (which may be `pressed`) and the steady cycle itself: for the
-   /// energy. Null: none is compared.
+   /// The other end of the cycle (which may be `pressed`) and the steady cycle itself, both for
+   /// the energy. Null: no energy is compared.
    const ContactState *opposite = nullptr;
    const CycleRecord *cycle = nullptr;        ///< marched, steady
    CrackedBody cracked = CrackedBody::second; ///< its shear traction gives K_T its sign
    double modulus = 0; ///< E* of similar bodies; 0: of different materials, no energy
-   /// Eigensolutions of the corner at the first (side 1) or the last (side -1) node of the
-   /// line, InputError where there are none. Without it corners are not fitted.
+   /// Returns the eigensolutions of the corner at the first (side 1) or the last (side -1) node
+   /// of the line, or throws InputError if there are none. Without it corners are not fitted.
    std::function<CornerModes(int side)> corner = {};
 };
 

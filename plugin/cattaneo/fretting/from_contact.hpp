@@ -7,8 +7,8 @@
 namespace cattaneo::fretting
 {
 
-/// An edge as the near-edge fields and criteria take it. InputError with why_not if it is not
-/// empty.
+/// An edge as input of the near-edge fields and the criteria. InputError with
+/// ContactEdge::why_not if that is not empty.
 Edge near_edge(const ContactEdge &edge);
 
 /// Frictional energy of one marched cycle, computed and as the near-edge field predicts it.

@@ -68,8 +68,8 @@ struct ContactState
    /// The record of the present cycle so far, so that a march that is resumed within a cycle
    /// knows all of it. Empty between cycles.
    std::optional<CycleRecord> cycle;
-   /// What a program keeps with a state that it saves, by its own names, as the range of a
-   /// bolt's force. No part of the contact: marches do not ask for it.
+   /// Other values that a program saves with a state, under names of its choice, for instance
+   /// the range of a bolt's force. Marches do not use them.
    std::map<std::string, std::vector<double>> kept;
 
    /// {v; w}.

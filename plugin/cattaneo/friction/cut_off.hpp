@@ -20,7 +20,7 @@ struct CutOffContact
    double y = 0;          ///< likewise
    double time = 0;       ///< of the state
 
-   /// At the same end, or at a rim too?
+   /// Is it at the same end, or also at a rim?
    bool same_place(const CutOffContact &other) const
    {
       return chain == other.chain &&

@@ -14,8 +14,9 @@ namespace cattaneo
     1. The history has no cycle.
 
     @param called what the text is called in an error, the name of an option for instance
-    InputError, which quotes the point, for what is no number, a pattern that the problem has
-    not or that is named twice, a quote without an end, and a load at the first point. */
+    InputError, which quotes the point, for a value that is no number, a pattern that the
+    problem does not have or that is named twice, a quote without an end, and a load at the
+    first point. */
 LoadHistory load_history(const std::string &called, const std::string &text,
                          const ReducedProblem &problem);
 

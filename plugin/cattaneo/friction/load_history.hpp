@@ -51,9 +51,10 @@ struct LoadHistory
    static LoadHistory through(const std::vector<Eigen::VectorXd> &points);
    /** Points with times 0, 1, 2, … by the names of loads. A point names the loads that it
        changes: through(problem, {{}, {{"P", 1}}, {{"Q", 0.2}}}). A load that a point does not
-       name keeps its value. All loads begin at 0. @param cycle_start the point from which on
-       the rest repeats; -1: no cycle @param cycles how often it does InputError as validate(),
-       and for a name that is none of a pattern. */
+       name keeps its value. All loads begin at 0.
+       @param cycle_start the point from which on the rest repeats; -1: no cycle
+       @param cycles how often it repeats
+       InputError as validate(), and for a name that no pattern has. */
    static LoadHistory through(const ReducedProblem &problem,
                               const std::vector<NamedLoads> &points, int cycle_start = -1,
                               int cycles = 1);

@@ -42,12 +42,12 @@ public:
    Loop(Control control, double multiplier, double conjugate, bool whole = true);
    /// A loop without a point, to be read from a file.
    Loop() = default;
-   /// The next point of the way, straight from the one before.
+   /// Adds the next point of the path, which is straight from the point before.
    void add(double multiplier, double conjugate);
 
    /// ∫ F dd by trapezoids, exact for a path of straight pieces. If the loop closes this is the
    /// enclosed area. It is positive if the loop runs clockwise (F upwards over d), as when
-   /// energy is lost. If not `whole`, it is right only if the loop closes and no other load
+   /// energy is lost. If not `whole`, it is correct only if the loop closes and no other load
    /// varies.
    double work() const { return work_; }
    /// Largest less smallest.

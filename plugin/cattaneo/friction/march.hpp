@@ -29,8 +29,8 @@ enum class Stepping
 
        With two tangential components there is no such path, and FrictionMethod::gauss_seidel
        knows none. Equal increments are taken, halved while contact advances by more than one
-      layer of nodes: each newly closed node must have had a closed neighbour on its chain, or,
-      on a chain that bore nothing yet, close there first, alone or beside another. */
+       layer of nodes: each newly closed node must have had a closed neighbour on its chain, or,
+       on a chain without contact so far, be the first to close, alone or beside another. */
    exact
 };
 
@@ -97,8 +97,8 @@ struct IncrementRecord
    /// The method that found it: one of IncrementReport's, or that of the exact path ("event
    /// path", and how its rates were found if not by Newton), or "unchanged" if the loads stay.
    const char *found_by = "";
-   /// A march that is resumed from this state has the same bits. False within an exact path: it
-   /// is the same to round-off.
+   /// True: a march that is resumed from this state has the same bits. False within an exact
+   /// path, where it is the same to round-off.
    bool resumes = true;
    /// Node that comes to the boundary of its state, or to a bend of its law, where the
    /// increment ends, see MarchSettings::every_event. In this row it still has its old state;
@@ -149,13 +149,13 @@ struct MarchReport
    FrictionStatus status = FrictionStatus::converged; ///< of the whole march
    std::string message;                               ///< one sentence, empty if converged
    double time = 0;                                   ///< reached
-   /// Where the outcome is not `converged`: time and load multipliers at which it occurred. An
-   /// exact path that ends has them exactly, at the event after which it does not go on; the
-   /// state is that event's. After an increment that failed they are those of the last
-   /// equilibrium, found by bisection; the state is the last one whose forces are known to
-   /// 1e-9. A first proportional loading without a gap has none, and they are those of its
-   /// start. `not_unique` does not end a march: they are then the ones of `not_unique`.
-   /// `stopped`: time and multipliers of the state.
+   /// Where the outcome is not `converged`: time and load multipliers at which it occurred. If
+   /// an exact path ends they are exact, those of its last event, and the state is that
+   /// event's. After an increment that failed they are those of the last equilibrium, found by
+   /// bisection; the state is the last one whose forces are known to 1e-9. In a first
+   /// proportional loading without a gap no load has an equilibrium then, and they are those of
+   /// its start. `not_unique` does not end a march: they are then the ones of
+   /// `not_unique`. `stopped`: time and multipliers of the state.
    double event_time = 0;
    Eigen::VectorXd event_multipliers;   ///< in the order of the patterns
    std::optional<NotUnique> not_unique; ///< also if the march ended later for another reason

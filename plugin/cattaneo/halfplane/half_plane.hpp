@@ -30,7 +30,7 @@ struct BulkStress
    double stress = 0;   ///< per unit multiplier, force per area
 };
 
-/// Internal: the integrals about an axis of the contact line that was condensed last.
+/// Internal: the axisymmetric integrals of the contact line that was condensed last.
 class KeptRings;
 /// Makes an empty cache.
 std::shared_ptr<KeptRings> keep_rings();
@@ -67,7 +67,7 @@ struct HalfPlane
    std::vector<BulkStress> bulk = {};
    /// Thickness in the plane, > 0. Forces and stiffness are those of this thickness.
    double thickness = 1;
-   /// Integrals about an axis that condense() keeps, because the torsion of the same contact
+   /// Axisymmetric integrals that condense() keeps, because the torsion of the same contact
    /// line needs them again. Copies share them.
    std::shared_ptr<KeptRings> rings = keep_rings();
 

@@ -38,10 +38,10 @@ struct HalfSpace
    /// compressed there is cut off, and reports say so.
    bool ends = false;
 
-   /// InputError for a material that is none or of plane stress, edges that are not positive,
-   /// rectangles that do not lie on one grid, to 1e-9 of an edge, or are there twice, triangles
-   /// without area (1e-12 of their longest edge squared), of vertices that there are not, or of
-   /// which two lie on the same side of an edge, or both kinds of cells.
+   /// InputError for a material that is not valid or is of plane stress, edges that are not
+   /// positive, rectangles that do not lie on one grid, to 1e-9 of an edge, or are there twice,
+   /// triangles without area (1e-12 of their longest edge squared), with vertices that do not
+   /// exist, or two of which lie on the same side of an edge, or both kinds of cells.
    void validate() const;
 
    Eigen::Index nodes() const;       ///< number n of the cells
@@ -58,8 +58,8 @@ struct HalfSpace
    /** The frictional contact of these bodies with a gap of each cell (size n), measured at the
        centre of a rectangle, or the mean over a triangle, without friction until
        set_friction(). It has two tangential components, areas as weights, middles as positions
-       (n × 3, z = 0), and unless a body `ends` there as rim the rectangles that lack one of
-       four neighbours or triangles that have an edge alone.
+       (n × 3, z = 0), and, unless a body `ends` there, a rim: the rectangles that lack one of
+       four neighbours, or the triangles that have an edge without a neighbour.
 
        The body above moves freely under its far forces. Patterns "P" (towards the other body),
        "Q1" and "Q2" (along x and y) have a unit force each, and, if it `turns`, "T" a unit
@@ -76,13 +76,14 @@ struct HalfSpace
 
    /** Displacements at points of the surface (m × 2) under nodal forces {q; p} of the cells
        (size 3n): those of the body above less those of the body below, m × 3 along x, y and z.
-       The rigid motions of the far bodies are no part of them. InputError as of validate(), or
-       for other sizes. */
+       The rigid motions of the far bodies are not included. InputError as of validate(), or for
+       other sizes. */
    Eigen::MatrixX3d displacements(const Eigen::MatrixX2d &points,
                                   const Eigen::VectorXd &forces) const;
 
-   /// Force and moment about x = y = 0, along x, y and z, that nodal forces {q; p} of the
-   /// cells (size 3n) are on the body above. InputError as of validate(), or for another size.
+   /// Resultant on the body above of nodal forces {q; p} of the cells (size 3n): force and
+   /// moment about x = y = 0, along x, y and z. InputError as of validate(), or for another
+   /// size.
    Eigen::Matrix<double, 6, 1> resultant(const Eigen::VectorXd &forces) const;
 
    /** Stresses at points (m × 3) inside of the bodies under nodal forces {q; p} of the cells

@@ -59,7 +59,7 @@ public:
        and `event_time` are those at which the bolt's force is zero.
 
        InputError if a bolt is never tightened, is loosened at the end, is tightened to a
-       negative force or within the cycle, or named there. */
+       negative force, or is tightened or named within the cycle. */
    MarchReport march(const LoadHistory &history, ContactState &state,
                      const MarchSettings &settings = {},
                      const MarchObserver &observer = {}) const;

@@ -37,7 +37,7 @@ struct MeshPart
 mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr,
                      const MeshPart &part = {});
 
-/// Data of a mesh file beside the mesh.
+/// Data of a mesh file besides the mesh.
 struct MeshNames
 {
    /// Boundary attributes by the names of groups ($PhysicalNames of Gmsh; spaces as
@@ -71,9 +71,9 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
                               const std::vector<int> &meeting = {});
 
 /// A sentence if the mesh is more curved than elements of this order can be: such a body
-/// falsely resists rotation. Measured on a ring whose edges span 10 degrees each: by 1e-2 of
-/// the forces of a shear as large as the turn with order 1, by 2e-4 with order 2; of 20
-/// degrees, 2e-2 and 1e-3.
+/// falsely resists rotation. The false forces, over those of a shear as large as the turn, were
+/// measured on a ring: with edges of 10 degrees 1e-2 (order 1) and 2e-4 (order 2), with edges
+/// of 20 degrees 2e-2 and 1e-3.
 std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name);
 
 } // namespace cattaneo

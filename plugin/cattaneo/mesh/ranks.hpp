@@ -30,7 +30,7 @@ public:
    /// True on the first of all ranks of the program, whatever mesh they share.
    static bool first_of_all();
 
-   /// True if it is on any rank.
+   /// True if the argument is true on any rank.
    bool any(bool here) const;
    /// Over all ranks.
    long sum(long here) const;

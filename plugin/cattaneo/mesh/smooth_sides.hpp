@@ -13,8 +13,8 @@ namespace cattaneo
 struct WallOfChords
 {
    Eigen::Vector2d place{0, 0}; ///< the middle of a chord
-   double off = 0;              ///< what the curves add to the wall there
-   double wall = 0;             ///< its thickness without
+   double off = 0;              ///< by which the curves thicken the wall there
+   double wall = 0;             ///< the wall's thickness between chords
 };
 
 /// The result of curve_sides().
@@ -24,8 +24,8 @@ struct SmoothSides
    double most = 0;     ///< the farthest that a curve is from its chord
    bool moved = false;  ///< nodes of the mesh lie on the curves of `chords` now
    int free_edges = 0;  ///< of the body's other sides: chords whose nodes lie on curves now
-   int free_chords = 0; ///< and those whose nodes do not
-   std::optional<WallOfChords> thinned; ///< of these the one whose wall changes most
+   int free_chords = 0; ///< of these other sides: chords whose nodes do not
+   std::optional<WallOfChords> thinned; ///< of free_chords, whose wall changes most
    /// The edges along those sides, with the curve of each (straight ones too): for
    /// bend_elements(line, chords).
    std::vector<SideChord> chords;

@@ -28,12 +28,11 @@ public:
    BodyFields(const ElasticBody &body, const std::string &directory, const std::string &name);
 
    /// Writes one more time of the series. `displacement`: all true dofs, as
-   /// Reduction::displacement gives them; `loads`: as stress_at() asks for them; those of
-   /// other bodies may be among them, names that nothing asks for are not looked at. InputError
-   /// if the size is wrong, an initial strain has no multiplier or the folder cannot be
-   /// written.
+   /// Reduction::displacement gives them; `loads`: as for stress_at(); loads of other bodies
+   /// may be among them, and names that are not needed are ignored. InputError if the size is
+   /// wrong, an initial strain has no multiplier or the folder cannot be written.
    void write(const mfem::Vector &displacement, double time, const NamedLoads &loads = {});
-   /// The same of a vector of Eigen's.
+   /// The same for a vector of Eigen's.
    void write(const Eigen::VectorXd &displacement, double time, const NamedLoads &loads = {});
 
    /// A field as last written; InputError with the list of names if there is none of that name.
@@ -52,10 +51,10 @@ private:
 
 /** Series of a contact line for ParaView, in the folder `directory`/`name`: open `name`.pvd.
     One polyline a chain of nodes, at the reference position of body 1, with the point data
-    arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip,
-    4 slip in no direction; see settled_states()), p and q (tractions: nodal forces over
-    consistent weights), slip (v) and opening (w + g), and of several interfaces the number of
-    each node's, from 0. Plane problems.
+    arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip, 4
+    slip in no direction; see settled_states()), p and q (tractions: nodal forces over
+    consistent weights), slip (v) and opening (w + g), and, if there are several interfaces, the
+    number of each node's interface, from 0. Plane problems.
 
     The problem must outlive this. */
 class ContactLineFields
@@ -90,8 +89,8 @@ public:
                    const std::string &directory, const HalfPlane *half_plane = nullptr);
 
    /// Recovers the fields of the bodies, one solve each, and writes them. On several ranks all
-   /// must call it; what they share the first one writes. InputError as BodyFields and
-   /// ContactLineFields.
+   /// must call it. The first rank writes the data that they share. InputError as BodyFields
+   /// and ContactLineFields.
    void write(const ContactState &state);
 
    /// The fields of the half-plane; null if there is none.

@@ -27,9 +27,9 @@ public:
    HalfPlaneFields(const HalfPlane &body, const ContactLine &line, const std::string &directory,
                    const std::string &name);
 
-   /// Writes one more time of the series. @a forces: on the nodes of the line, as
-   /// HalfPlaneField asks for them. @a loads: multipliers, of which bulk stresses follow.
-   /// InputError if the folder cannot be written.
+   /// Writes one more time of the series. @a forces: on the nodes of the line, as for
+   /// HalfPlaneField. @a loads: multipliers, from which bulk stresses follow. InputError if the
+   /// folder cannot be written.
    void write(const Eigen::VectorXd &forces, double time, const NamedLoads &loads = {});
 
    /// A field as last written; InputError if there is none of that name.

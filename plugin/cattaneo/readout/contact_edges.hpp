@@ -25,7 +25,7 @@ struct ContactEdge
    int side = 1;            ///< +1: the contact lies at larger arc length, -1: at smaller
    double half_width = 0.0; ///< of the stretch of contact
    Eigen::Index first = 0;  ///< nodes of this edge's half of the contact,
-   Eigen::Index last = -1;  ///< in increasing order; the middle one of an odd number is both's
+   Eigen::Index last = -1;  ///< in increasing order; a middle one belongs to both halves
    /// The contact reaches the end of the contact line, where a body may end with a corner.
    bool complete = false;
    std::string why_not;    ///< why there are no intensities: complete, or cut off; else empty
@@ -33,7 +33,7 @@ struct ContactEdge
    FittedIntensity k_t;    ///< zero if there are none; signed as fretting::Edge::k_t
    double friction = 0.0;  ///< at the outermost node in contact
    double slip_zone = 0.0; ///< computed: from the edge to where stick begins, 0 if it sticks
-   double slip_zone_error = 0.0; ///< estimate, of the two positions it is the difference of
+   double slip_zone_error = 0.0; ///< estimate, from the errors of both positions
    bool slides = false; ///< no stick in this stretch of contact: slip_zone is its whole width
 
    /// InputError if its nodes are not some of the problem's, or if that has no weights.

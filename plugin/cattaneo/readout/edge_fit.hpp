@@ -71,8 +71,9 @@ UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &
                              bool pressed);
 
 /// One intensity and its relative error. The error is the larger of the standard error of the
-/// fit and the change when one more term of the expansion is fitted. Where the window is
-/// chosen, it is at least the difference to windows of at most three times that error.
+/// fit and the change when one more term of the expansion is fitted. If the window is chosen by
+/// the fit, the error is also at least the difference from the value of any window whose own
+/// error is at most three times as large.
 struct FittedIntensity
 {
    double value = 0.0;          ///< K_N or K_T, in the units of tractions and distances

@@ -22,9 +22,9 @@ public:
    /// A state that the march has reached.
    void note(const ContactState &state);
 
-   /// A sentence for each interface and limit that was passed: slip of a node in contact beyond
-   /// its distance from the next, and a gap that closed of more than a tenth of the length of
-   /// the interface.
+   /// A sentence for each interface and limit that was passed: the slip of a node in contact is
+   /// larger than its distance from the next node, or a gap of more than a tenth of the
+   /// interface's length has closed.
    std::vector<std::string> warnings() const;
 
 private:

@@ -75,11 +75,11 @@ Zone widest_zone(const std::vector<Zone> &zones, NodeState which);
     exist.
  */
 Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones);
-/// The same of a state.
+/// The same for a state.
 Zone stick_zone(const ReducedProblem &problem, const ContactState &state);
 
 /// Stretches of contact: runs of closed nodes of one chain, in the order of the nodes. Their
-/// state is stick, whatever slips.
+/// state is given as stick, even if nodes slip.
 std::vector<Zone> contact_zones(const std::vector<Zone> &zones);
 /// The widest of them; first > last if all nodes are apart.
 Zone contact_zone(const ReducedProblem &problem, const ContactState &state);

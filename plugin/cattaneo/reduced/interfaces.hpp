@@ -20,8 +20,8 @@ struct InterfaceSide
     whose nodes are farther apart in the geometric mean. If both are alike it is the first one,
     unless that is ten times as stiff as the second one. The coarser side is the safe choice: it
     has no more forces than either body has displacements. A finer, stiff slave on a coarse,
-    soft master has tractions that swing from node to node (docs/interfaces.md has figures). If
-    the chosen side cannot be the slave (supports hold nodes of it, or all of them carry rows
+    soft master has tractions that oscillate from node to node (docs/interfaces.md has figures).
+    If the chosen side cannot be the slave (supports hold nodes of it, or all of them carry rows
     already) the other one is. */
 enum class SlaveSide
 {
@@ -101,9 +101,9 @@ struct ChordalError
 {
    double at_a_node = 0; ///< the largest change of the pressure of a node
    /// The change of the largest pressure, which may move to another node. It is at least the
-   /// fall of the pressure at the node that has the largest one now: another node may only
-   /// become the largest because pressures swing from node to node, above all with linear
-   /// elements.
+   /// fall of the pressure at the node where it is largest now. A rise at another node does not
+   /// reduce it, because it may come merely from pressures that oscillate from node to node,
+   /// above all with linear elements.
    double of_peak = 0;
 };
 

@@ -24,15 +24,15 @@ Eigen::VectorXd gaps_to_circle(const InterfaceReport &nodes, const Eigen::Vector
                                double radius);
 
 /// In space a plane through a point; `normal` of any length and sign. A node whose normal is
-/// parallel to the plane faces nothing.
+/// parallel to the plane does not face it.
 Eigen::VectorXd gaps_to_plane(const ContactSurface &surface, const Eigen::Vector3d &point,
                               const Eigen::Vector3d &normal);
 /// In space a sphere, or with a negative radius a hollow of that radius.
 Eigen::VectorXd gaps_to_sphere(const ContactSurface &surface, const Eigen::Vector3d &centre,
                                double radius);
 /// In space a cylinder about the axis through a point, without ends; with a negative radius a
-/// bore of that radius. `axis` of any length and sense. A node that looks along it faces
-/// nothing.
+/// bore of that radius. `axis` of any length and sense. A node whose normal is parallel to the
+/// axis does not face it.
 Eigen::VectorXd gaps_to_cylinder(const ContactSurface &surface, const Eigen::Vector3d &point,
                                  const Eigen::Vector3d &axis, double radius);
 /// In space the surface z = height(x, y), as gaps_to_curve().

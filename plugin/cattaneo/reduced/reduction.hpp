@@ -21,10 +21,11 @@ struct InterfaceReport
    Eigen::Index first = 0; ///< first of its nodes of the problem; tied: among the tied ones
    Eigen::Index nodes = 0; ///< number of them
    bool tied = false;      ///< its nodes are not in the problem
-   /// The nodes are those of Interface::second: forces on the first body are the opposite.
+   /// True: the nodes are those of Interface::second, and forces on the first body are
+   /// opposite.
    bool of_second = false;
-   /// n × 2, of the nodes; of surfaces ReducedProblem::position has them, and this and all of
-   /// lines below is empty.
+   /// n × 2, of the nodes. Of surfaces they are in ReducedProblem::position, and this and all
+   /// members for lines below are empty.
    Eigen::MatrixX2d position;
    Eigen::MatrixX2d outline; ///< n × 2, ContactLine::outline: where gaps are measured from
    Eigen::MatrixX2d tangent; ///< n × 2, of their frames: unit vectors
@@ -32,7 +33,8 @@ struct InterfaceReport
    /// that has them.
    Eigen::MatrixXd frames = {};
    Eigen::MatrixX3d places = {}; ///< in space n × 3, of the nodes
-   /// In space: places of nodes without a row, as other rows join them and what they face.
+   /// In space: places of nodes without a row, because other rows join them to the body
+   /// opposite.
    std::vector<Eigen::Vector3d> in_rings = {};
    /// n × 2 each: the places where the nodes' forces act on the body that has the nodes, and on
    /// the body that faces it. The first is the node's own place, except on an element that is
@@ -56,12 +58,12 @@ struct InterfaceReport
    /// are opposite. The frame of the node is the mean of both. 0 on a rigid obstacle.
    Eigen::VectorXd turn = {};
    /// A place where a Pairing pairs nodes one to one although an element of the one body has no
-   /// equal on the other (differing_element()); none: there is no such place. Tractions are not
-   /// right there.
+   /// equal on the other (differing_element()); none: there is no such place. Tractions are
+   /// wrong there.
    std::optional<Eigen::Vector2d> differing = {};
-   /// A node of the problem that a load moves along the interface, by a component that is held,
-   /// while what it faces is at rest or moved otherwise. Its slip is that of the load: its v is
-   /// held at 0 in the problem, and its law of friction is left out.
+   /// A node of the problem that a load moves along the interface, by a prescribed
+   /// displacement, while the body opposite is at rest or is moved otherwise. Its slip is that
+   /// of the load: its v is held at 0 in the problem, and its law of friction is left out.
    struct Moved
    {
       Eigen::Index node = 0; ///< of the problem
@@ -218,10 +220,10 @@ public:
 private:
    friend Reduction reduce(std::vector<CondensedBody> bodies,
                            const std::vector<Interface> &interfaces);
-   /// With the forces of shanks in the place of their pretensions, for displacements {v; w} of
-   /// which the obstacle's are a part.
+   /// Multipliers in which the forces of shanks replace their pretensions, for displacements
+   /// {v; w} that include the obstacles'.
    Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;
-   /// {v; w} of those that are not circumferential.
+   /// {v; w} without the circumferential displacements.
    Eigen::VectorXd without_torsion(const Eigen::VectorXd &u) const;
    Eigen::VectorXd recover(CondensedBody &body, const Eigen::VectorXd &u,
                            const std::vector<int> &patterns,
@@ -252,7 +254,7 @@ private:
       Eigen::Index pattern;
       Eigen::VectorXd at_rest, at_once;
    };
-   std::vector<Shank> shanks_; ///< each of the problem with those before it
+   std::vector<Shank> shanks_; ///< each for the problem with those before it
 };
 
 /** One body in space against a rigid obstacle, with the initial gap of each of its contact

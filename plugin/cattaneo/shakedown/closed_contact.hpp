@@ -40,7 +40,7 @@ ClosedContact closed_contact(const ReducedProblem &problem,
 struct StayedClosed
 {
    std::vector<Eigen::Index> nodes; ///< closed throughout the cycles, in increasing order
-   MarchReport march;               ///< the nodes are right only if it converged
+   MarchReport march;               ///< `nodes` are correct only if it converged
 };
 
 /** Finds the nodes that stay closed throughout some cycles at a load factor. Marches from rest

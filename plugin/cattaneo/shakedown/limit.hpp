@@ -38,8 +38,8 @@ enum class LimitStatus
    certified,   ///< lower ≤ limit ≤ upper are proven and the gap is within the tolerance
    bracketed,   ///< the bounds are proven, but the gap is wider than requested
    unlimited,   ///< no limit: a slip in proportion to the load factor, `ray`, keeps the contact
-                ///< stuck at any load factor (proven; where forces touch their cones, to
-                ///< round-off and up to `lower`)
+                ///< stuck at any load factor. Proven; if forces lie on their cones, only to
+                ///< round-off and up to `lower`
    no_solution, ///< no slip keeps the contact stuck and closed under the constant loads or, of
                 ///< a friction limit, with any coefficient searched (proven by the mechanism)
    failed,      ///< the solver ended without a usable point
@@ -108,7 +108,7 @@ struct LimitReport
    double violation = 0;
    Eigen::VectorXd slip; ///< the optimal slip v, c·n, without rigid part
    /// Unlimited: the proof. Under the load factor λ, however large, slip + λ ray is admissible
-   /// (where forces touch their cones, to round-off: the message says up to which λ).
+   /// (if forces lie on their cones, only to round-off and up to the λ in the message).
    Eigen::VectorXd ray;
    /// The dual mechanism. Load limit: scaled to work 1 on the varying loads.
    CollapseMechanism mechanism;
@@ -143,9 +143,9 @@ inline constexpr const char *limit_assumption =
 /// A number within a sentence on limits.
 std::string nine_digits(double value);
 
-/** Largest λ ≥ 0 for the friction of the problem, Coulomb's or a concave law (InputError of one
-    that is not), and the shape of the cycle. First the constant
-    loads, λ = 0: `no_solution` if they cannot be carried. */
+/** Largest λ ≥ 0 for the friction of the problem, Coulomb's or a concave law (InputError for
+    another), and the shape of the cycle. First the constant loads, λ = 0: `no_solution` if they
+    cannot be carried. */
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings = {});
 
 /// The same for given forces on the stuck contact instead of the load patterns'

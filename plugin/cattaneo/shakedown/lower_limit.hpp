@@ -12,7 +12,7 @@ enum class LowerLimitKind
    uncoupled, ///< B = 0: every start shakes down below λ2 [Klarbring 2007]
    two_nodes, ///< exact by the geometry of the constraint lines [Ahn 2008]
    bound,     ///< λ1 is at least the value
-   apart,     ///< below the value slip goes on for ever only with slip at the nodes set apart
+   apart,     ///< the same, but slip without end at the exempt nodes is not excluded
    none       ///< no statement: coupling times friction is too large for the bound
 };
 
@@ -62,7 +62,7 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
 
     No better bound can be proven from pressures alone. Where an admissible state has a node
     without pressure, as the corners of a square punch on a similar half-plane above f = 0.6, no
-    λ1 is proven. The proof then sets some nodes apart. The inequality holds as long as these
+    λ1 is proven. The proof then exempts some nodes. The inequality holds as long as these
     stick, and their slip adds a term in proportion to it. Slip that never ends therefore
     includes slip without end at one of them. At these nodes there is no condition on q*, and on
     the pressure only that the contact is closed. Where slip does go on, marches show

@@ -68,7 +68,7 @@ struct TransientReport
    /// equilibrium time 0 and these loads.
    double event_time = 0;
    Eigen::VectorXd event_multipliers; ///< of the load patterns, at that time
-   double load_factor = 0;            ///< λ at which was marched
+   double load_factor = 0;            ///< λ of the march
    TransientVerdict verdict = TransientVerdict::no_equilibrium; ///< verdict on the slip
    std::vector<double> dissipation;                             ///< of each cycle, until steady
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:
@@ -119,7 +119,7 @@ TransientBracket transient_bracket(const LimitProblem &problem, const LimitRepor
     the same size. */
 struct CounterExampleSettings
 {
-   int starts = 10;   ///< random starts a load factor, besides multiples of the optimal slip
+   int starts = 10;   ///< random starts per load factor, besides multiples of the optimal slip
    int halvings = 6;  ///< load factors tried
    unsigned seed = 1; ///< of the random starts
    TransientSettings transient; ///< of each march

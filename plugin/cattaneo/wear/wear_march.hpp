@@ -125,8 +125,8 @@ using WearObserver = std::function<void(const WearState &, const WearRecord &)>;
 using WornIncrementObserver = std::function<void(const ContactState &, const IncrementRecord &,
                                                  const Eigen::VectorXd &depth)>;
 
-/** Wears a contact: marches the opening part of a history and then its cycle, `cycles` times
-    over all (history.cycles is not asked), and adds the wear of each cycle to the gap.
+/** Wears a contact: marches the opening part of a history and then its cycle, `cycles` times in
+    all (history.cycles is ignored), and adds the wear of each cycle to the gap.
 
     Every marched cycle is exact along its path, see worn_depth(). If k and f are uniform and
     there is no threshold, the worn volume is k/f times the energy lost by friction, at every
@@ -153,8 +153,8 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
     Depth must be small against the contact: frames and weights stay those of the unworn bodies.
 
     Stops early with the status of the cycle that has no equilibrium, or `stopped`. InputError
-    as march(), for a history without a cycle, and for a state that does not stand at its
-    beginning or between two cycles. */
+    as march(), for a history without a cycle, and for a state that is neither at its beginning
+    nor between two cycles. */
 WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
                 double cycles, WearState &state, const WearSettings &settings = {},
                 const WearObserver &observer = {}, const WornIncrementObserver &watch = {});
