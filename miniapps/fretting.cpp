@@ -1,13 +1,14 @@
 //  fretting: will a crack grow from the edge of this contact? Slip, yield, threshold and energy
 //
 //  A pad is pressed on a specimen (P), sheared (Q) and the specimen is pulled (bulk stress), in
-//  a cycle between the peak load and R times it, at constant P. The edge of an incomplete
-//  contact knows of all that only two numbers: K_N, how fast the pressure rises, and K_T, how
+//  a cycle between the peak load and R times it, at constant P. All this acts on the edge of an
+//  incomplete contact only through two numbers: K_N, how fast the pressure rises, and K_T, how
 //  strong the shear would be if nothing slipped. From them follow the slip zone, the stresses,
 //  the growth of a crack normal to the surface, the Kitagawa-Takahashi verdict and the
 //  frictional energy. The pad 'fe' finds the two numbers in a finite element solution of the
-//  contact and compares slip zone and energy with the computed ones; the stresses of its steady
-//  cycle, averaged over a depth, are put to multiaxial criteria on critical planes.
+//  contact, and compares the slip zone and the energy of the formulas with those of this
+//  solution. Multiaxial criteria on critical planes use the stresses of its steady cycle,
+//  averaged over a depth.
 //
 //  Units: N, mm, MPa; forces per mm of thickness. Material data in GPa, MPa and MPa sqrt(m).
 //
@@ -100,8 +101,8 @@ void assess_pad(Study &study)
       "Half width of the contact, mm (pad kn; used only for the checks of validity).");
    study.options().group("Finite elements");
    study.option(&pad.nodes, "nodes",
-                "Contact nodes (pad fe); of a pad with a flat the nodes of its two edges, to "
-                "which the nodes between are added.");
+                "Contact nodes (pad fe); for a pad with a flat, those near its two edges "
+                "together, and nodes on the flat between them come in addition.");
    study.option(&pad.order, "order", "Order of the elements (pad fe).", within(1, 8));
    study.option(
       &depth, "averaging-depth",
@@ -122,7 +123,8 @@ void assess_pad(Study &study)
                       "must be positive and below 2000 (GPa, not MPa)"});
    study.option(&poisson, "poisson", "Poisson's ratio (default: the record's).");
    study.option(&threshold, "threshold",
-                "Threshold dK_th, MPa sqrt(m), a range or an amplitude like the fatigue limit.",
+                "Threshold dK_th, MPa sqrt(m): a range or an amplitude, as in the material's "
+                "record, which has the fatigue limit likewise.",
                 positive);
    study.option(&limit, "fatigue-limit", "Plain fatigue limit, MPa.");
    study.option(&yield, "shear-yield", "Yield stress in pure shear, MPa.");
@@ -133,10 +135,11 @@ void assess_pad(Study &study)
                 "Part of K_I that drives the crack: open (the part of the cycle in which it is "
                 "open), range, or half-range.",
                 {"open", "range", "half-range"});
-   study.option(&records, "records",
-                "CSV file of tests (P, Q, material, ..., cycles, runout) with which the "
-                "measures are compared.",
-                Text::input);
+   study.option(
+      &records, "records",
+      "CSV file of tests (P, Q, material, ..., cycles, runout): edge stress, threshold, range "
+      "of K_T and energies are computed for each test and compared with its life.",
+      Text::input);
    study.options().renamed({{"p", "pad"},
                             {"r", "radius"},
                             {"b", "flat"},

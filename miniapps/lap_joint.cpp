@@ -1,9 +1,9 @@
 //  lap_joint: two laps pinched by bolts and pulled, in cycles; slip, dissipation, rows of bolts
 //
-//  Thesis chapter 6 and 8.2 (3). Two equal laps of half the thickness t overlap by the
-//  protrusion on both sides of the bolt, a pressure p0 over the width w on both outer faces (P0
-//  = p0 w); then the remote load T cycles 0 → Tmax → 0. The contact recedes to |x| < a, stick
-//  is |x| < c. Forward slip is +x of the upper lap, whose loaded end is at -x. Units t = p0 =
+//  Thesis chapter 6 and 8.2 (3). Two equal laps, each t/2 thick, overlap by the protrusion on
+//  both sides of the bolt. The bolt is a pressure p0 over the width w on both outer faces, P0 =
+//  p0 w. Then a remote load T cycles 0 → Tmax → 0. The contact recedes to |x| < a, and stick is
+//  |x| < c. Forward slip is +x of the upper lap, whose loaded end is at -x. Units t = p0 =
 //  E' = 1, E' = E/(1-ν²); dissipation D E'/P0² a cycle.
 //
 //  Sample runs:
@@ -268,10 +268,10 @@ void lap_joint(Study &study)
    bool touch = false, all_cycles = false;
    study.options().group("The joint");
    study.option(&options.widths[0], "width", "Width w of the pinch pressure, in t.");
-   study.option(
-      &options.protrusion, "protrusion",
-      "Length of the free end beyond the (outermost) bolt, in t (thickness of the upper lap).",
-      positive);
+   study.option(&options.protrusion, "protrusion",
+                "Length of the free end beyond the (outermost) bolt, in t (twice the thickness "
+                "of the upper lap).",
+                positive);
    study.option(&options.remote, "remote",
                 "Length of the loaded end beyond the (outermost) bolt, in t.", above(2));
    study.option(&options.lower_thickness, "lower-thickness",
@@ -293,8 +293,8 @@ void lap_joint(Study &study)
    study.options().group("Several bolts");
    study.option(&options.bolts, "bolt-positions", "Positions of the bolts, in t.");
    study.option(&tightening, "tightening",
-                "Orders of tightening, bolts from 1: \"2 1 3 / 1 3 2\" (empty: inner first, "
-                "outer first).");
+                "Orders of tightening, bolts from 1: \"2 1 3 / 1 3 2\" (empty: two orders, "
+                "from the inside out and from the outside in).");
    study.option(
       &joint.snug, "snug",
       "With several bolts: pressure, over p0, to which all are tightened together first.",

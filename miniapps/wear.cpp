@@ -255,7 +255,8 @@ void wear_contact(Study &study)
    {
       warn(
          text("%ld cycles wore so much that pressures changed within them: k or the amplitude "
-              "is large, and the depths before the end have an error of first order",
+              "is large, and the depths before the end have an error of first order in the "
+              "wear of a cycle",
               report.implicit_cycles));
    }
    if (!save_state.empty() && writes()) { save(state, save_state); }

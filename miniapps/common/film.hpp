@@ -26,11 +26,11 @@ public:
 private:
    nlohmann::ordered_json head_;
    std::vector<nlohmann::ordered_json> history_, frames_;
-   nlohmann::ordered_json last_; ///< frame, whether it is one of those kept or not
+   nlohmann::ordered_json last_; ///< frame, even if it is not among the kept ones
    std::size_t most_, stride_ = 1;
 };
 
-/// Zones as they are drawn: one of a node without neighbours has no length, and is given one.
+/// Zones as they are drawn. A zone of a single node has no length, and gets one to be visible.
 std::vector<cattaneo::Zone> drawn_zones(const cattaneo::ReducedProblem &problem,
                                         const cattaneo::ContactState &state);
 

@@ -455,7 +455,7 @@ void Options::check_files() const
 
 void Options::echo() const
 {
-   // Those that were typed; with --verbose what all others are.
+   // Prints the options that were typed; with --verbose also the values of all others.
    const Option *verbose = named("verbose");
    const bool all = !verbose || verbose->text() == "true";
    if (!all && given_.empty()) { return; }

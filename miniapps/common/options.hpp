@@ -69,8 +69,8 @@ public:
       std::string name, off;
    };
 
-   /// Where the value goes: NaN is a number that has not been given, which no check asks; a
-   /// list is written with spaces or commas, "none" and "" are the empty one.
+   /// Where the value goes. NaN means that no number was given; checks are not applied to it. A
+   /// list is written with spaces or commas; "none" and "" are the empty list.
    using Value = std::variant<int *, double *, bool *, std::string *, std::vector<double> *>;
 
    /// @param check of a number, or of each in a list

@@ -33,7 +33,7 @@ std::string loads_text(const ReducedProblem &problem, const VectorXd &loads)
    return listed(words);
 }
 
-/// A saved state must stand where the history stands at its time.
+/// A saved state must have the loads that the history has at the state's time.
 void check_start(const ReducedProblem &problem, const ContactState &state,
                  const LoadHistory &history)
 {
@@ -210,12 +210,13 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
                 "Point of the history (from 0) where its cycle starts; -1: there is none.",
                 at_least(-1));
    study.option(&amplitude_, "amplitude",
-                "Factor of how far the loads of the cycle go from those of the point "
-                "--cycle-start: 0.5 halves a cycle between ±Q.",
+                "Multiplies the differences of the cycle's loads from those at --cycle-start. "
+                "If the cycle starts at Q = 0 and goes between ±Q, 0.5 halves it.",
                 positive);
    study.option(&amplitudes_, "amplitudes",
-                "One run for each of these values of --amplitude, as '0.2 0.5 1' or '0.2 … 1' "
-                "(nine values); the same as --sweep amplitude=…");
+                "One run for each of these values of --amplitude, as '0.2 0.5 1'. '0.2 … 1' "
+                "(typed with … or three dots) gives nine values in equal steps. The same as "
+                "--sweep amplitude=VALUES.");
    study.options().leave_out_of_cases("amplitudes");
    study.option(&cycles_, "cycles",
                 "Largest number of cycles: the march ends when they are steady.", at_least(1));
@@ -223,8 +224,8 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
                 "Load increments between two points of the history.", at_least(1));
    stepping_.declare_with_events(study);
    study.option(&frames_, "frames",
-                "Times, as '1 2.5', at which states are written besides the last one, or the "
-                "word all: at every increment.");
+                "Times, as '1 2.5', whose states go to --paraview and to the table of contact "
+                "nodes (--csv), besides the last state; all: every increment.");
    study.option(&save_state_, "save-state", "File for the last state.", Text::output);
    study.option(&load_state_, "load-state", "State from which the march continues.",
                 Text::input);
@@ -278,7 +279,7 @@ void OwnHistory::begin(const ReducedProblem &problem)
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
       const auto values = history_.multipliers.row(static_cast<Eigen::Index>(k));
-      // Of a bolt that is tightened nowhere the march says it.
+      // For a bolt that is never tightened the march has a message of its own.
       const bool bolt = bolts && std::any_of(bolts->bolts().begin(), bolts->bolts().end(),
                                              [&](const Bolt &one)
                                              { return one.load == problem.patterns[k].name; });
@@ -626,7 +627,8 @@ void report_critical_friction(Study &study, const ReducedProblem &problem)
    study.results["critical_friction"] = {{"node", critical.node},
                                          {"locking", critical.locking},
                                          {"unique_below", critical.unique_below}};
-   // Unasked it is told where friction comes within half of it.
+   // Without --verbose it is printed only if a coefficient of the case is at least half of the
+   // smaller one of `node` and `locking`.
    const double near = 0.5 * std::min(critical.node, critical.locking);
    if (!study.verbose() && problem.friction.maxCoeff() < near) { return; }
    const auto words = [](double value, const char *if_infinite)

@@ -50,7 +50,7 @@ public:
    std::function<void(cattaneo::ContactState &)> keep;
    /// Bolts that the history tightens; must outlive it. Null: there are none.
    const cattaneo::BoltedJoint *bolts = nullptr;
-   /// Loads that have the multipliers of others: by their names those of the others.
+   /// Loads that take the multiplier of another load: name of the load → name of the other.
    std::map<std::string, std::string> go_with;
    cattaneo::MarchSettings settings;
    cattaneo::ContactState state;

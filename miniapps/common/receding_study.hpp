@@ -65,7 +65,8 @@ struct Unloading
    int steps;
    double lowest;
    std::vector<double> wanted; ///< levels to report
-   /// Names of the table and of the panel of tractions, of how much of the line, its title.
+   /// Names of the table and of the panel of tractions, the panel's title, and a word for
+   /// the ends of zones in the table.
    std::string table, tractions, title, ends;
    double shown = none; ///< up to which coordinate tractions are drawn; none: all
 };

@@ -121,8 +121,8 @@ public:
    ResultTable &table(const std::string &name, const std::vector<Column> &columns);
    /// A CSV file of a list of results that is printed line by line.
    void list(const std::string &name, const nlohmann::ordered_json &rows);
-   /// A row of it, with the errors of the columns that have one, for the references: these have
-   /// the key "table/column", and their conditions may name columns.
+   /// Adds a row to a table, with the errors of the columns that have one. The row is compared
+   /// with references of the key "table/column", whose conditions may name columns.
    void row(ResultTable &table, const std::vector<nlohmann::ordered_json> &values,
             const std::vector<std::pair<std::string, double>> &errors = {},
             const nlohmann::ordered_json &more = {});

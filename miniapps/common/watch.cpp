@@ -45,7 +45,8 @@ void show_line(double seconds)
 {
    const cattaneo::Progress &p = on_line.progress;
    std::string how_far;
-   // A study of many short works has no share that would say when it ends.
+   // A study of many short computations does not know the share that is done, so the time left
+   // is not printed.
    if (p.seconds >= 1)
    {
       const std::string share = p.share > 0 ? text("%.0f %%, ", 100 * p.share) : "",

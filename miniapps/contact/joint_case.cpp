@@ -627,8 +627,8 @@ void each_load(JointCase &joint, Visit visit)
    for (JointCase::Bolt &one : joint.bolts) { visit(one.name, false); }
 }
 
-/// A load that pushes one thing and moves another is two, of which the second goes with the
-/// first: a multiplier has one kind of conjugate.
+/// A load that is a force on one body and a displacement of another is split into two, and the
+/// second takes the multiplier of the first. A multiplier has one kind of conjugate.
 void part_loads(JointCase &joint)
 {
    std::map<std::string, std::array<bool, 2>> kinds; // forces, displacements

@@ -165,7 +165,8 @@ struct JointKeys
    double thickness = none; ///< not given: forces are per thickness
 };
 
-/// A key that is said by a text; null if that is empty. InputError if it is not JSON.
+/// The value of a key that is given as a text in JSON; null if the text is empty. InputError if
+/// it is not JSON.
 nlohmann::ordered_json structure(const std::string &key, const std::string &text);
 
 /// InputError naming the key.

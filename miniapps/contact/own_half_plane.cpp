@@ -26,8 +26,8 @@ double held_share(const CondensedBody &body, const Eigen::Vector2d &axis)
    return (motion - free * (free.transpose() * motion)).norm();
 }
 
-/// The node of the line that its body was condensed to, if it is the end of it at a plane of
-/// symmetry; else none. Its tangent is that of the surface then.
+/// The same node in the line of the condensed body, if that line ends there at a plane of
+/// symmetry; else none. The tangent of the returned node is that of the surface.
 const LineNode *symmetric_end(const LineNode &node, const ContactLine &all)
 {
    for (const LineChain &chain : all.chains)
@@ -78,7 +78,8 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
    if (held && !about_axis)
    {
       below.symmetric = true;
-      // Across what is held; the line may lean there by LineChain::symmetry_turn.
+      // The normal is the axis nearest to the node's normal: the line may miss 90 degrees to
+      // the support by LineChain::symmetry_turn.
       const Eigen::Vector2d leaning = held->normal();
       leaning.cwiseAbs().maxCoeff(&axis);
       normal.setZero();

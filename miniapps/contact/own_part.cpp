@@ -543,7 +543,8 @@ Eigen::Vector2d OwnPart::middle(const JointCase::Side &end) const
       const Eigen::VectorXd weights = its.each(&LineNode::weight);
       return its.each(&LineNode::position).transpose() * weights / weights.sum();
    }
-   // As long as the traction is: an interval may end within elements, which a line has whole.
+   // The middle of the length on which the traction acts. An interval may end within an
+   // element, but a contact line has only whole elements.
    const ElasticBody::Extent extent = elastic_->extent(
       boundary_part(end.called, end.part, terms_), end.called + ": '" + end.part + "'");
    require(extent.size > 0, end.called, ": there is nothing on '", end.part,

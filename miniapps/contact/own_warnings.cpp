@@ -67,7 +67,8 @@ void warn_of_left_out(const InterfaceReport &interface)
    if (interface.left_out <= 0) { return; }
    warn("interface '", interface.name, "': ", interface.left_out,
         " of its length (about an axis: of its area) faces the other side, but no contact node "
-        "there can bear: choose the other side by key 'slave', or use finer elements there");
+        "there can carry a force: choose the other side by key 'slave', or use finer elements "
+        "there");
 }
 
 void warn_of_loose_bodies(const OwnBodies &own)
@@ -191,7 +192,7 @@ ChordalError warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p
         known ? told("this changes the largest pressure by up to ", shares.of_peak,
                      " of it, and that of a single node by up to ", shares.at_a_node,
                      " of the largest (estimates)")
-              : "no node bears, but the curves may",
+              : "no node carries a force now, but some may on the curves",
         ". Take key geometry: smooth, which follows curves that the vertices show, a mesh of a "
         "higher order (in Gmsh: -order 2), or give the gap by key 'gap'");
    return shares;
@@ -227,7 +228,7 @@ void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)
       if (!bears) { continue; }
       const std::string &name = reduction.bodies[b].name;
       warn("body " + (name.empty() ? std::to_string(b + 1) : name) +
-           " has linear elements beside the axis, whose node on the axis takes no force. The "
+           " has linear elements next to the axis. Their node on the axis takes no force. The "
            "pressure of the next node is wrong by about 5 % or more on any mesh: use elements "
            "of order 2");
    }

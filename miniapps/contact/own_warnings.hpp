@@ -18,12 +18,12 @@ void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
 /// Warns of bodies that overlap by more than the length of a node's part of the line.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);
-/// Warns of what no contact node stands for.
+/// Warns of parts of an interface that no contact node represents.
 void warn_of_left_out(const cattaneo::InterfaceReport &interface);
 /// After a march that found no equilibrium, warns of bodies that nothing holds and that touch
 /// nothing at rest.
 void warn_of_loose_bodies(const OwnBodies &own);
-/// Warns of a stiffness with few right digits.
+/// Warns of a stiffness with few correct digits.
 void warn_of_accuracy(double accuracy);
 
 /// Warns of what lies beyond small displacements: what was noted of the march, and rotations of
@@ -39,11 +39,11 @@ void note_smooth_sides(const JointCase &joint, const cattaneo::Reduction &reduct
                        const std::vector<cattaneo::SmoothSides> &sides);
 /// Warns where chords of curved sides change the pressure of a node by more than a twentieth of
 /// the largest one. The nodal forces p are those of the state with the largest of a march.
-/// Returns what chords make of pressures.
+/// Returns the error of pressures due to chords, and warns of it.
 cattaneo::ChordalError warn_of_chords(const cattaneo::Reduction &reduction,
                                       const Eigen::VectorXd &p, const Eigen::VectorXd &w);
-/// Warns where what bears next to the axis are linear elements, whose node on it takes no
-/// force.
+/// Warns if the elements that carry forces next to the axis are linear: their node on the axis
+/// takes no force.
 void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);
 /// For each interface: is its second side a straight rigid line, or a half-plane?
 std::vector<bool> even_sides(const JointCase &joint);

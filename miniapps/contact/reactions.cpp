@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Forces on a body, and their moment about the origin. About an axis the force along it alone
-/// adds up.
+/// Forces on a body, and their moment about the origin. In axisymmetry only forces along the
+/// axis add up.
 struct Sum
 {
    Vector2d force{0, 0}, middle{0, 0};

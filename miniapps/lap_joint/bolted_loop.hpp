@@ -70,8 +70,8 @@ std::vector<std::vector<int>> orders(const std::string &text, const std::vector<
 
 /// Relative size below which a force counts as round-off of its neighbours.
 constexpr double round_off = 1e-9;
-/// Largest deviation from mirror symmetry, over the largest value. @param size of what the
-/// forces could be: those that are round-off of it are none, and symmetric
+/// Largest deviation from mirror symmetry, over the largest value. @param size scale of the
+/// forces: a force that is round-off compared with it counts as zero, and so as symmetric
 double asymmetry(const Eigen::VectorXd &forces, double size);
 
 } // namespace miniapp

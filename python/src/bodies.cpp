@@ -71,7 +71,7 @@ nb::object own_rows(nb::handle K)
    catch (nb::python_error &error)
    {
       if (!error.matches(PyExc_ValueError)) { throw; }
-      throw InputError(std::string("K is no whole sparse matrix: ") +
+      throw InputError(std::string("K is not a valid sparse matrix: ") +
                        nb::str(error.value()).c_str());
    }
 }

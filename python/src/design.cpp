@@ -22,7 +22,8 @@ using Shape = std::optional<nb::typed<nb::callable, std::pair<Numbers, Numbers>(
 using Objective =
    std::optional<nb::typed<nb::callable, std::vector<Response>(Asked, std::vector<int>)>>;
 
-/// A problem to choose for. Python's functions are called where C++'s would be.
+/// A design problem whose objective and shape are functions of Python. They are called where
+/// C++ would call its own.
 struct Wanted
 {
    DesignProblem problem;

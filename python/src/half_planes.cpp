@@ -17,7 +17,7 @@ namespace cattaneo::python
 namespace
 {
 
-/// Warned of linear elements beside the axis, whose error no refinement takes away.
+/// Warns of linear elements next to the axis. Refinement does not remove their error.
 CondensedBody warned(CondensedBody result)
 {
    for (const LineChain &chain : result.line.chains)
@@ -28,9 +28,9 @@ CondensedBody warned(CondensedBody result)
          if (beside && element.order() == 1 &&
              result.line.formulation == Formulation::axisymmetric)
          {
-            warn("condense: a linear element lies beside the axis, whose node on it takes no "
-                 "force: pressures next to it are wrong by 5 % or more however fine the "
-                 "elements are; take order 2");
+            warn("condense: the element next to the axis is linear, and its node on the axis "
+                 "takes no force: the pressure of the next node is wrong by 5 % or more on any "
+                 "mesh; take order 2");
             return result;
          }
       }

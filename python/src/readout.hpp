@@ -33,8 +33,8 @@ struct NamedZone
    std::string places() const;
 };
 
-/// Zones with their interfaces and places. `contact`: their nodes are in contact, whatever
-/// slips.
+/// Zones with their interfaces and places. `contact`: they are zones of nodes in contact,
+/// sticking and slipping alike.
 std::vector<NamedZone> named_zones(const ReducedProblem &problem,
                                    const std::vector<Zone> &zones, bool contact);
 

@@ -88,7 +88,10 @@ void bind_edge_responses(nb::module_ &m)
 
 LimitGradient known_or_warned(const char *what, LimitGradient gradient)
 {
-   if (!gradient.found) { warn(std::string(what) + ": it is not known: " + gradient.message); }
+   if (!gradient.found)
+   {
+      warn(std::string(what) + ": the derivative could not be computed: " + gradient.message);
+   }
    return gradient;
 }
 

@@ -85,7 +85,7 @@ Reduction reduced_pair(const CondensedBody &body, const CondensedBody &other,
    return reduce(body, other, pairs);
 }
 
-/// Warned of what differs, and with the twist of the bodies, if there are any of it.
+/// Adds the torsion bodies, if there are any, and warns of paired elements that differ.
 Reduction completed(Reduction result, const Bodies &torsion)
 {
    for (const InterfaceReport &face : result.interfaces)
@@ -94,7 +94,7 @@ Reduction completed(Reduction result, const Bodies &torsion)
       warn("reduce: interface '" + face.name +
            "' pairs nodes one to one where the elements of the bodies differ, at (" +
            exact_text((*face.differing)[0]) + ", " + exact_text((*face.differing)[1]) +
-           ") for instance: tractions are wrong from node to node; without a pairing nodes "
+           ") for instance: tractions of single nodes are wrong there; without a pairing nodes "
            "need not match");
    }
    if (!torsion.empty()) { result.add_torsion(torsion); }

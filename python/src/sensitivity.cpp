@@ -68,7 +68,10 @@ struct Derivatives
       Watch watch(nb::bool_(false), nb::none());
       const Monitor monitor = watch.monitor();
       auto result = work([&](Sensitivity &all) { return from(all, monitor); });
-      if (!result.found) { warn(std::string(name) + ": it is not known: " + result.message); }
+      if (!result.found)
+      {
+         warn(std::string(name) + ": the derivative could not be computed: " + result.message);
+      }
       return result;
    }
 };
@@ -199,9 +202,10 @@ void bind_trace(nb::module_ &m)
                        " is not one of the trace");
                if (tie.state == 0)
                {
-                  warn("other_side: that of node " + std::to_string(tie.node) +
-                       " at rest is on another path, which this trace does not have: trace a "
-                       "march with a little more gap there");
+                  warn("other_side: the derivative on the other side of node " +
+                       std::to_string(tie.node) +
+                       " (at the start) belongs to another path, which this trace does not "
+                       "contain: trace a march in which this node has a slightly larger gap");
                }
                states[tie.state].state.status[tie.node] = tie.other;
             }

@@ -336,7 +336,7 @@ def test_a_sparse_matrix_whose_arrays_were_changed():
         for name, place, value in (("indices", 0, 99_999), ("indices", 3, -1), ("indptr", 1, 10**6), ("indptr", -1, 10**6), ("indptr", 0, 5)):
             changed = K.copy().asformat(form)
             getattr(changed, name)[place] = value
-            with pytest.raises(cattaneo.InputError, match="K is no whole sparse matrix: "):
+            with pytest.raises(cattaneo.InputError, match="K is not a valid sparse matrix: "):
                 cattaneo.NodalStiffness(changed, places)
     for k, name in enumerate(("row", "col")):
         changed = K.tocoo(copy=True)

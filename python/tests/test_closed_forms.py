@@ -88,7 +88,7 @@ def test_two_half_spaces_twisted_while_they_stick():
 
 def test_linear_elements_beside_the_axis_are_warned_of():
     body = cattaneo.HalfPlane(cattaneo.Material(1.0, 0.3), depth=1e4)
-    with pytest.warns(cattaneo.OutcomeWarning, match="beside the axis"):
+    with pytest.warns(cattaneo.OutcomeWarning, match="next to the axis"):
         cattaneo.condense(body, [0, 0.5, 1], 1, "axisymmetric")
     with warnings.catch_warnings():
         warnings.simplefilter("error")

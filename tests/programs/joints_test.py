@@ -225,7 +225,7 @@ def test_of_rings_tell_what_chords_take(run):
         assert said == "" and wrong < 0.06
     # Chords so long that sides that overlap are apart, and elements that follow the arcs.
     for overlap in (d, 0.1 * d):
-        assert "no node bears, but the curves may" in press(9, 1, None, overlap)[0]
+        assert "no node carries a force now, but some may on the curves" in press(9, 1, None, overlap)[0]
     assert press(9, 1, None, -20 * d)[0] == ""  # a clearance beyond doubt
     # What was pressed and is no more is known by what it was.
     run.block("plane.mesh", -2, 2, 24, -2, 0, 6)

@@ -68,7 +68,7 @@ def test_of_a_shrink_fit_have_lames_pressure(run, order):
         assert polygons.listed("notes") == ""
         most = max(p)
         if most == 0:
-            assert "no node bears, but the curves may" in polygons.listed("warnings")
+            assert "no node carries a force now, but some may on the curves" in polygons.listed("warnings")
             continue
         # Errors of the node with the largest error, and of the largest pressure.
         wrong = {"node": max(abs(value - LAME) for value in p) / most, "peak": 1 - LAME / most}

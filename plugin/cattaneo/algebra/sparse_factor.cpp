@@ -115,7 +115,8 @@ struct SparseFactor::Implementation
    virtual ~Implementation() = default;
    /// L22.
    virtual Eigen::MatrixXd trailing_factor() const = 0;
-   /// For each of its rows the number of the trailing row, 0 … trailing - 1.
+   /// For each row of L22 the number that this row has among the trailing rows, 0 … trailing -
+   /// 1.
    virtual std::vector<int> trailing_order() const = 0;
    /// L22 L22ᵀ x
    virtual Eigen::VectorXd trailing_product(const Eigen::VectorXd &x) const = 0;

@@ -70,7 +70,8 @@ public:
    }
 };
 
-/// In space numbers the nodes of the kept rows: rows at one place have one number. Else empty.
+/// In three dimensions the number of the node of each kept row, the same for rows at one place.
+/// Otherwise empty.
 std::vector<int> nodes_of(const std::vector<int> &keep, const DofPlaces &places)
 {
    std::vector<int> numbers;

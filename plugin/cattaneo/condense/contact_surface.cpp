@@ -90,7 +90,7 @@ FaceFunctions quadrilateral_functions(std::size_t nodes, double s, double t)
    return eight;
 }
 
-/// Of the nodes of a face, by Gauss's rule: exact of plane faces with straight edges.
+/// Shares of the nodes of a face, by Gauss's rule: exact for plane faces with straight edges.
 std::vector<FaceShare> shares_of(const std::vector<Vector3d> &x)
 {
    std::vector<FaceShare> shares(x.size());

@@ -478,8 +478,8 @@ SmoothSolution Design::descend()
          last.y = y_of(now);
          return last;
       }
-      // The improvement found by marching over the promised one sets the radius, and decides
-      // whether the step is taken.
+      // The ratio of the marched to the predicted improvement sets the trust radius, and
+      // decides whether the step is taken.
       const Trial &trial = at(next);
       const double kept = trial.known ? (objective(now) - objective(trial)) / promised : -1;
       const bool far =

@@ -155,7 +155,8 @@ MovingEdge moving_edge(const ReducedProblem &problem, const MarchTrace &trace,
       t[j] = std::abs(tractions.position[used[j]] - tractions.edge) / window.farthest;
       square[j] = tractions.pressure[used[j]] * tractions.pressure[used[j]];
    }
-   // c = solve p²: the coefficients of the parabola, whose derivatives are these rows.
+   // c = solve · p²: the coefficients of the parabola. The rows of `solve` are their
+   // derivatives by the values p².
    const MatrixXd terms = powers(t, 2);
    const MatrixXd solve = terms.colPivHouseholderQr().solve(MatrixXd::Identity(count, count));
    const Eigen::Vector3d c = solve * square;

@@ -137,10 +137,10 @@ struct Sensitivity::System
    MatrixXd clamped_by_stiffness(std::size_t k) const;
    /// Conjugates of the loads likewise, at given displacements.
    MatrixXd conjugates_by_stiffness(std::size_t k) const;
-   /// What is added to the equation of each node's tangential row by its friction.
+   /// Derivative of each node's tangential equation by its coefficient of friction.
    VectorXd equations_by_friction(std::size_t k) const;
-   /// Visits all variables that a number of one node depends on through its slip over
-   /// increment k. `by` has the derivatives of the number.
+   /// Visits all variables on which a quantity of one node (its loss or its worn depth) depends
+   /// through its slip over increment k. `by` has the derivatives of this quantity.
    void visit_rubbing(std::size_t k, Index node, const RubbingDerivative &by, Variables &of,
                       const Visitor &visit) const;
    /// The same for the loss, and for the worn depth, of each node that slips over the increment
@@ -550,7 +550,8 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
       s.respond(k, clamped, beside, du, dF);
       // 5. If the increment ends where a node changes its state, the load there is an unknown
       // too. Its change keeps the node on its boundary. If the boundary does not come nearer
-      // along the loads, the event is at the load of the state before, and so is its change.
+      // along the loads, the event is taken at the load of the state before, and has the same
+      // derivative as that load.
       if (traced.event < 0) { share_change = 0; }
       else
       {

@@ -548,8 +548,8 @@ private:
 void add_cards(const std::vector<Card> &cards, const std::string &file, NodalStiffness &result)
 {
    Entries entries(result);
-   // held: dofs that a card supports or moves. lost: those that the matrix fixes, which no load
-   // can move, because the forces that this takes are not in the matrix.
+   // held: dofs that a card supports or moves. lost: dofs that are fixed in the matrix. No load
+   // can move them, because the matrix has lost the forces of their rows.
    std::set<NodeDof> held, lost;
    for (int row : result.fixed) { lost.insert(result.dofs[row]); }
    for (const Card &card : cards)

@@ -403,8 +403,8 @@ bool newton_in_the_disc(Increment &at)
       // 2. Their solution is the end if its states are the same.
       const bool same = take_natural_states(at) == 0;
       if (same && small && at.ends_here()) { return true; }
-      // 3. The steps end if the residual has not fallen for some time. The same states have the
-      // same solution, which can only be refined.
+      // 3. The steps end if the residual has not fallen for some time. If the states do not
+      // change, the solution is the same, and more steps can only refine it.
       if (size < 0.5 * before)
       {
          before = size;

@@ -118,14 +118,15 @@ bool descend(Increment &at)
 
 } // namespace
 
-/// From the present displacements, from those at the start of the increment, and from random
-/// ones ever further away, in units of what the loads do to a node alone: as many as so many
-/// operations allow (a second or two). The generator is seeded afresh, so that equal
-/// increments start alike.
+/// Starts from the present displacements, from those at the start of the increment, and from
+/// random ones at growing distances. The unit of distance is the displacement that the loads
+/// cause at a node alone. The number of starts is limited by the number of operations (a second
+/// or two). The generator is seeded afresh, so that equal increments start alike.
 Search damped_newton(Increment &at)
 {
    FrictionSystem &s = at.system;
-   // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
+   // A body that drifts away is unlikely to have an equilibrium elsewhere, so the search for
+   // one is shorter.
    const double operations = moves_away(at) ? 2e8 : search_operations;
    const VectorXd u_old = at.start.displacements();
    const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();

@@ -328,8 +328,8 @@ OnSprings put_on_springs(Increment &at)
       alike = same ? alike + 1 : 0;
       found.away = same ? motion_of(bears, next.status, problem.components()) : Mechanism{};
    }
-   // For a body that opens everywhere find_mechanism() has the proof, because a spring may hold
-   // a body before it touches.
+   // Springs prove nothing about a body that opens everywhere, because a spring may hold it
+   // before it touches. For such a body find_mechanism() has the proof.
    found.away.exists = !found.bear_nothing && alike > 1 && found.away.slides;
    return found;
 }

@@ -82,14 +82,14 @@ public:
    {
    }
 
-   /// Follows the path with so many factors at most. Near its end it asks at each point whether
-   /// Newton's steps find the end of the increment from there.
+   /// Follows the path with at most `most` factorisations. Near its end it tries at each point
+   /// whether Newton's steps find the end of the increment from there.
    bool reaches_end(Index most);
    Index factors() const { return factors_; }
 
 private:
-   // A point x of the path has the displacements, in units of what the loads do to a node
-   // alone, and at last the share of friction.
+   // A point x of the path has the displacements, in units of those that the loads cause at a
+   // node alone, and as its last entry the share of friction.
    VectorXd laws(const VectorXd &x);
    MatrixXd derivative(const VectorXd &x);
    double error(const VectorXd &laws, double share) const;

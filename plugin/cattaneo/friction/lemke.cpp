@@ -29,8 +29,8 @@ public:
       if (s_.bends()) { problem_.bounds = s_.bound; }
    }
 
-   /// From displacements u and forces that go with these states, as nearly as they do. True if
-   /// that comes to the end of the increment.
+   /// Begins at displacements u and forces F that fit these states at least approximately. True
+   /// if the end of the increment is reached.
    bool from(const VectorXd &u, const VectorXd &F, std::vector<NodeState> states, double slack)
    {
       const long factorisations = equations_.factorisations();

@@ -403,7 +403,8 @@ bool MarchRun::follow_path()
    // 1. The path begins at an equilibrium.
    bool started = start_path();
    // Events without progress: nodes that change their states at the same load, one after the
-   // other. If there are more events than nodes, the states repeat themselves.
+   // other. More than four events for each node, and 16, mean that the states repeat
+   // themselves.
    const long patience = 4 * problem_.nodes() + 16;
    long halted = 0;
    while (state_.time < piece_.end())
@@ -496,10 +497,10 @@ bool MarchRun::march_pieces()
    return true;
 }
 
-/// Free bodies that touch nothing may have no first increment, as it begins with rigid motions
-/// much larger than all deformations. (If there is one, it includes friction, and nothing is
-/// moved.) They are moved to where they touch, and the march begins there. False if this does
-/// not apply.
+/// For free bodies that touch nothing the first increment can fail, because it begins with
+/// rigid motions much larger than all deformations. (If it is found, it includes friction, and
+/// nothing is moved.) If it fails, the bodies are moved to where they touch, and the march
+/// begins there. False if this does not apply.
 bool MarchRun::restart_without_clearance()
 {
    const MarchReport &report = record_.report;

@@ -422,7 +422,8 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    result.free_motions.resize(rows, 0);
    auto solver = std::make_shared<SurfaceSolver>();
    solver->dofs = rows;
-   // In components, as a held tangential component lies along the surface.
+   // The free rows by components x and y. A component that is held along the surface is x, or y
+   // if the surface is upright.
    const bool upright = tangent(body)[0] == 0;
    for (Index i = 0; i < rows; ++i)
    {

@@ -15,7 +15,8 @@ using Eigen::Vector2d;
 namespace
 {
 
-/// A corner of cells: whole edges from the first corner of all, or the number of a vertex.
+/// A corner of a cell: its distance in cell edges, in x and y, from the first corner of all;
+/// for triangles the number of its vertex, and 0.
 using CellCorner = std::pair<long, long>;
 
 /// The corners of each cell, counter-clockwise as polygons_of() has them.

@@ -59,7 +59,8 @@ struct EdgeEnd
                        log_t = log_sum(R, t, rest), by_t = inverse_sum(R, t, rest),
                        by_z = 1 / (R + z);
       phi_first << angle(s, t, z, R), std::log(R + z), log_t;
-      // The sum over the axes twice is zero, as both potentials are harmonic.
+      // The trace of the second derivatives (xx + yy + zz) is zero, because both potentials are
+      // harmonic.
       const MoreDigits tt = t / R * by_z, zz = z / R * by_t, st = s / R * by_z,
                        sz = s / R * by_t, tz = 1 / R;
       phi_second << -tt - zz, st, sz, st, tt, tz, sz, tz, zz;

@@ -172,8 +172,9 @@ Zero nearest_zero(const VectorXd &t, const VectorXd &values, const VectorXd &wei
    return best;
 }
 
-/// Values at the nodes of a half stretch from its end inwards, without the last two, which
-/// carry parts of elements that are not wholly in contact.
+/// Extrapolates `value` to its zero near an end of contact, from the nodes of the half stretch
+/// at that end. The two nodes nearest to the end are left out, because they carry parts of
+/// elements that are not wholly in contact.
 template <class Value>
 Zero zero_near_end(const ReducedProblem &problem, Index end, Index last, int side,
                    const Value &value)

@@ -101,9 +101,10 @@ ZoneBorder separation_edge(const Bracket &bracket, const VectorXd &pressure2)
    return edge;
 }
 
-/// An edge from the side on which a displacement vanishes at it. (displacement)^(2/3) is
-/// extrapolated by a parabola through five nodes behind the first one. It is much smoother than
-/// nodal forces. More nodes would reach too near to the other end of the zone.
+/// Finds an edge from the side where a displacement goes to zero at the edge.
+/// (displacement)^(2/3) is extrapolated by a parabola through five nodes behind the first one.
+/// It is much smoother than nodal forces. More nodes would reach too near to the other end of
+/// the zone.
 bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, ZoneBorder &edge)
 {
    return bracket.accept(bracket.extrapolate(displacement23, 1, 6, 2),

@@ -246,8 +246,8 @@ struct LineEdge
 {
    const LineElement *element = nullptr;
    Vector2d from, to;
-   /// Turns to the elements before and after, over half of the sum of both lengths: the
-   /// curvature of a curve through its ends. Empty at ends of the line.
+   /// Angle to the element before and to the element after, each over half of the sum of the
+   /// two lengths: the curvature of a curve through its ends. Empty at ends of the line.
    std::array<std::optional<double>, 2> curvature;
 
    double length() const { return (to - from).norm(); }

@@ -495,7 +495,8 @@ bool RowsOfInterface::can_be_slave(const Slaves &taken, bool in_rings)
          const int number = met.mortar.nodes[i];
          rows_.push_back(row(i));
          const ContactRow &made = rows_.back();
-         // Where supports hold the slave, what it is paired with is determined.
+         // Where supports hold the slave, the row determines the displacement of its partner
+         // instead.
          std::vector<NodeOfBody> determined{made.slave};
          const auto needs = [&](int component)
          {

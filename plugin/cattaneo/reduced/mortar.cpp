@@ -26,7 +26,8 @@ constexpr double least_share = 0.25;
 /// Least share of its own node in the integrals of a dual function, on an element that is faced
 /// in part.
 constexpr double least_own = 0.1;
-/// A neighbour shorter than this share of an element's length gets the end of the element.
+/// If a neighbour is shorter than this share of an element's length, the functions of the
+/// element are narrowed at that end.
 constexpr double short_neighbour = 0.2;
 
 /// Round-off of roots, in parameters of an element.

@@ -80,7 +80,8 @@ Side surface_side(const InterfaceSide &given, const std::vector<CondensedBody> &
               "(joined())");
       side.nodes.push_back(found->second);
    }
-   // The unknowns of nodes in the middle of edges are the same ones.
+   // A node in the middle of an edge must lie between the same nodes on the side and on the
+   // body, so that its unknown is the same.
    for (std::size_t k = 0; k < side.nodes.size(); ++k)
    {
       const auto &here = side.surface.nodes[k].between,

@@ -24,7 +24,7 @@ double depth(const Vector3d &x)
    return (x[0] - q) * (x[0] + q);
 }
 
-/// The product in which the cone is that of squares.
+/// The Jordan product: the cone consists of all squares in it.
 Vector3d product(const Vector3d &a, const Vector3d &b)
 {
    Vector3d c;

@@ -154,8 +154,8 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    estimate.exists = smallest <= 0 && largest >= 0;
    if (!estimate.exists)
    {
-      estimate.message =
-         "every residual shear that method 1 allows has a resultant, must be zero";
+      estimate.message = "every residual shear within the limits of method 1 (thesis 4.9) has "
+                         "a resultant, must have none";
       return estimate;
    }
 

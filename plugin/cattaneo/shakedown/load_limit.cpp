@@ -106,8 +106,9 @@ private:
    void take_bounds(ConeSolution &solution);
    void lower_the_upper(ConeMechanism mechanism);
    bool closed() const;
-   /// Does a slip in proportion to the load hold any load? Returns the report that ends the
-   /// search if so, or if the mechanism that it found makes both bounds meet.
+   /// Is there a slip, in proportion to the load, with which the contact carries every load,
+   /// however large? Returns the report that ends the search if there is, or if the mechanism
+   /// that was found makes both bounds meet.
    std::optional<LimitReport> try_ray();
 
    const bool nothing_constant_, nothing_varies_;
@@ -383,7 +384,8 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
    }
    if (!report.proven()) { return report; }
    report.of_the_mesh = mesh_statement(problem.reduced, stuck, report, report.limit, false);
-   // Free where it is the upper limit itself, or where two nodes are all.
+   // The lower limit costs nothing if it is the upper limit itself, or if the contact has only
+   // two nodes.
    const bool free =
       !report.coupled || (problem.reduced.nodes() == 2 && problem.reduced.components() == 1);
    if (free || settings.every_start)

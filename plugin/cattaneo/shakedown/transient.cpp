@@ -282,8 +282,8 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
       return found;
    }
 
-   // Starts are multiples of the optimal slip, and random slips whose residual shear friction
-   // can hold under the constant loads.
+   // Starts are multiples of the optimal slip, and random slips whose residual shear can be
+   // held by friction under the constant loads.
    std::mt19937 random(settings.seed);
    std::uniform_real_distribution<double> uniform(-1, 1);
    const Eigen::VectorXd

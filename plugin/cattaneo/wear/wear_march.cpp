@@ -180,7 +180,7 @@ private:
    void notice(const WearCycle &cycle);
    /// How closely a cycle is to repeat itself where a jump looks at it.
    double repeats_to() const { return 0.05 * settings_.tolerance; }
-   /// Depth of a cycle that makes no difference to the whole.
+   /// Wear of a cycle below which it makes no difference to the whole depth.
    double slow(const Way &way) const { return way.state.depth.maxCoeff() / end_; }
    double done() const { return fine_.state.cycles; }
    /// Estimate of the error of depth so far.
@@ -417,9 +417,9 @@ bool WearMarch::look_at(Way &way, double cycles)
    WearCycle cycle =
       cycles_.repeated(contact, way.state.depth, repeats_to(), slow(way), cycles);
    if (!cycle.found()) { return false; }
-   // After a marched cycle the first of these cycles already contains the lag. After a jump it
-   // is computed on a gap that grows as the next cycles will change it. On a fixed gap some
-   // nodes would not slip that slip on a growing one.
+   // After a marched cycle the first cycle that is marched here already contains the lag. After
+   // a jump the lag is computed on a gap that grows as in the next cycles, because some nodes
+   // that slip on a growing gap would not slip on a fixed one.
    const VectorXd predicted = way.lag;
    way.lag = cycle.lag;
    way.lag_error = 0;
@@ -715,7 +715,8 @@ WearReport WearMarch::run()
          report_.message = "the wear was asked to stop";
          break;
       }
-      // A cycle at one gap does not show the wear of its pieces when the gap follows them.
+      // No jumps if the gap is updated within a cycle: a cycle at a fixed gap does not show
+      // that wear.
       const bool may_jump = settings_.tolerance > 0 && settings_.update == GapUpdate::cycle &&
                             jumps_ && done() >= rest_;
       goes_on = (may_jump && jump()) || march_on();

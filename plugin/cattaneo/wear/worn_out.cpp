@@ -98,8 +98,8 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    result.range = first.range;
    if (first.idle())
    {
-      // The cycle takes no energy, so nothing wears. This holds even if no node sticks
-      // throughout the cycle, because the bodies part in it.
+      // The cycle takes no energy, so nothing wears. This also holds for a cycle in which the
+      // bodies part, so that no node sticks throughout.
       result.status = FrictionStatus::converged;
       result.depth = none;
       result.overlap = -first.opening;

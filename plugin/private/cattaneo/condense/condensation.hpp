@@ -29,7 +29,7 @@ struct Condensation
       {}; ///< only set for a body with blocks; else H follows from the clamped loads
 };
 
-/// ReducedProblem::H, signs and symmetry, from the energies of clamped loads.
+/// ReducedProblem::H from the energies of clamped loads, with its signs set and made symmetric.
 Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped);
 
 /// The numbers from 0 to count - 1 that are not in `held`.

@@ -41,8 +41,9 @@ public:
    /// Condenses loads on all rows, in their order. Entries of the rows that are kept become the
    /// loads on these, entries before them become data for locate().
    void condense(int eighths, Eigen::VectorXd &loads) const;
-   /// Finds the displacements of eliminated rows from those of the rows that are kept. The
-   /// entries before the latter are the condensed loads (with the sign of b in K u = b).
+   /// Finds the displacements of eliminated rows from those of the rows that are kept. On
+   /// entry, the entries that stand before the kept rows are the condensed loads (with the sign
+   /// of b in K u = b).
    void locate(int eighths, Eigen::VectorXd &u) const;
 
 private:
