@@ -1,4 +1,4 @@
-//  heated_block: contact in a few lines added to a program of one's own (MFEM's style, as ex2)
+//  heated_block: contact in a few lines added to a program of your own (MFEM's style, as ex2)
 //
 //  The right half of a block 2L wide and h high is held at the top and grows toward a rigid
 //  plane at a distance g as its temperature rises by ΔT. Everything of the body is the

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Matrices of one's own may come without neighbours, places and weights.
+/// Matrices of other programs may come without neighbours, places and weights.
 void fill_in(ReducedProblem &problem)
 {
    const Eigen::Index n = problem.nodes();

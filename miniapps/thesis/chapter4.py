@@ -134,7 +134,7 @@ which its transpose; with the transposed one the exact limit is its 0.85. Where 
 figure("4.15", "Optimal slip", STEPS, """
 The slip that allows the most, beside the one of method 2. The optimum fixes it only where the limit is decided; elsewhere there is room.""",
        lambda run: overlaid(run.series("optimal_slip"), run.series("method2_slip"), [""], "x/a", "v E'/P", None),
-       rows="exact, f$")
+       rows="exact limit, f$")
 figure("4.16", "Residual tractions", STEPS, "Residual shear and pressure of the two slips of figure 4.15.",
        lambda run: overlaid(run.series("residual"), run.series("method2_residual"), ["shear", "pressure"], "x/a", "-a q/P0, a p/P0", (-0.5, 0.5)))
 figure("4.17", "Room for residual shear with the optimal pressures", STEPS, """
