@@ -64,7 +64,7 @@ double lanczos(Index n, Operator times)
    }
 }
 
-/// factor M + shift, positive definite?
+/// Is factor · M + shift positive definite?
 bool definite(const MatrixXd &M, double factor, double shift)
 {
    MatrixXd shifted = factor * M;

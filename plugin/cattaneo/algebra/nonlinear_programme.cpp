@@ -194,7 +194,8 @@ ProgrammeSolution solve(const NonlinearProgramme &programme, const ProgrammeSett
    const SmartPtr<IpoptApplication> app =
       application(settings, programme.multipliers().size() > 0);
    const SmartPtr<TNLP> asked = new AskedByIpopt(programme, solution);
-   // An empty file name, as otherwise a file ipopt.opt in the working directory would count.
+   // An empty file name, because otherwise Ipopt would read a file ipopt.opt in the working
+   // directory.
    ApplicationReturnStatus status = app->Initialize("");
    if (status == Solve_Succeeded)
    {

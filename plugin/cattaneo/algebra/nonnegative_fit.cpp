@@ -15,8 +15,8 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
    std::vector<Index> used;
    VectorXd x = VectorXd::Zero(G.cols());
    VectorXd r = g;
-   // The residual may be tiny. Being perpendicular to the edges in use is judged relative to
-   // its own size.
+   // Whether the residual is perpendicular to the edges in use is judged relative to its own
+   // size, because it may be tiny.
    const auto polish = [&]
    {
       r = g - G * x;
@@ -69,7 +69,7 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
          used = kept;
          if (used.empty()) { break; }
       }
-      // Otherwise round-off would choose edges that are perpendicular to it already.
+      // Otherwise round-off would choose edges that are already perpendicular to the residual.
       polish();
    }
    return {x, r};

@@ -22,8 +22,8 @@ namespace cattaneo
 namespace
 {
 
-/// The lower triangle of K(keep, keep) + shift, by columns (not sorted within a column). Being
-/// symmetric, row i of K is its column i: nothing has to be transposed.
+/// The lower triangle of K(keep, keep) + shift, by columns (not sorted within a column). K is
+/// symmetric, so its row i is its column i, and nothing has to be transposed.
 struct LowerTriangle
 {
    std::vector<int> start, row;

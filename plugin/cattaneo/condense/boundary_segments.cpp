@@ -186,7 +186,7 @@ JoinedSegments join(const std::vector<const Segment *> &chain, double &start)
    return result;
 }
 
-/// Nodes on the axis are left out of the line, their weight goes to a neighbour.
+/// Nodes on the axis are left out of the line, and their weight goes to a neighbour.
 void give_weights_of_axis(std::vector<SegmentNode> &nodes, const std::string &where)
 {
    std::size_t next = nodes.size();

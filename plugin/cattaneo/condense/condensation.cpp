@@ -16,7 +16,7 @@ namespace
 
 using Eigen::Index;
 
-/// Puts rows at their positions among so many, and zeros elsewhere.
+/// Puts rows at their positions in a matrix of so many rows, with zeros elsewhere.
 void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index rows)
 {
    const Eigen::MatrixXd dense = std::move(M);
@@ -93,7 +93,8 @@ Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLo
          }
          else
          {
-            // Displacement of force f by motion d; the support's reaction is its opposite.
+            // Displacement of force f in motion d; the reaction of the support to f has the
+            // opposite sign.
             const Eigen::Index f = force ? k : j, d = force ? j : k;
             h = reaction(f, d) + response(f, d);
             if (!force) { h = -h; }
@@ -206,7 +207,7 @@ namespace
 {
 
 /// InputError if a support holds a component of the middle of an edge whose ends it leaves
-/// free: it would be a relation between unknowns (ContactSurface).
+/// free: such a support would be a relation between unknowns (ContactSurface).
 void require_ends_held(const ContactSurface &surface, const std::vector<int> &held)
 {
    const auto n = static_cast<int>(surface.size());
@@ -243,7 +244,7 @@ CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads
       spread(found.free.contact, free, rows);
       spread(found.clamped.forces, free, rows);
    }
-   // From nodes to the unknowns of the trace.
+   // Converts from the nodes to the unknowns of the trace.
    if (const Middles middles(result.surface); !middles.none())
    {
       middles.stiffness_to_unknowns(found.S);
@@ -278,7 +279,7 @@ CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads
       result.free_motions.row(row).setZero();
       local.row(row).setZero();
    }
-   // Of torsion all are tangential.
+   // In torsion all are tangential.
    const Eigen::Index normals = twists ? 0 : result.nodes();
    for (std::size_t k = 0; k < loads.size(); ++k)
    {

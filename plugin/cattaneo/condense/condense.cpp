@@ -341,7 +341,7 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
 namespace
 {
 
-/// To a line or a surface.
+/// Condenses to a line or a surface.
 template <class Nodes>
 CondensedBody condensed(const AssembledBody &body, const Nodes &line,
                         const CondensedBody *alike)

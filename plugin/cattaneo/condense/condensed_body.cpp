@@ -36,7 +36,7 @@ std::vector<int> CondensedBody::free_positions() const
       const int i = row % n;
       if (line.formulation == Formulation::space)
       {
-         // Columns of the frame: the axes in it.
+         // A column of the frame is an axis, seen in the frame.
          const std::array<bool, 3> rows = {is_held(i), is_held(n + i), is_held(2 * n + i)};
          for (int c = 0; c < 3; ++c)
          {
@@ -121,7 +121,7 @@ Eigen::MatrixXd CondensedBody::rigid_motions(const Eigen::Vector3d &centre) cons
    for (Eigen::Index i = 0; i < n; ++i)
    {
       Eigen::MatrixXd own = rigid_at(at.row(i), centre, dimension);
-      if (axis) { own = own.col(1).eval(); } // along it alone
+      if (axis) { own = own.col(1).eval(); } // only along the axis
       for (int c = 0; c < dimension; ++c) { Z.row(c * n + i) = own.row(c); }
    }
    return frames_of(*this).inverse().transposed().rows(Z);
@@ -144,7 +144,7 @@ bool CondensedBody::holds(Eigen::Index node, int component) const
 {
    if (line.formulation == Formulation::space)
    {
-      // Frames have the axes that supports hold.
+      // Frames contain the axes that supports hold.
       double part = 0;
       for (int k = 0; k < 3; ++k)
       {

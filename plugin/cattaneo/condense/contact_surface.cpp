@@ -58,7 +58,8 @@ FaceFunctions triangle_functions(std::size_t nodes, double s, double t)
 
 FaceFunctions quadrilateral_functions(std::size_t nodes, double s, double t)
 {
-   // Of one direction, with derivatives: linear ones, or quadratic ones of ends and middle.
+   // Functions of one direction, with derivatives: linear ones, or quadratic ones of both ends
+   // and the middle.
    const auto line = [nodes](double x)
    {
       Eigen::Matrix<double, 3, 2> of;
@@ -71,7 +72,8 @@ FaceFunctions quadrilateral_functions(std::size_t nodes, double s, double t)
       return of;
    };
    const auto along = line(s), across = line(t);
-   // Which of the two lines' functions a node has: corners, middles, middle of the face.
+   // The number of each node's function in either direction: corners, middles, middle of the
+   // face.
    const int place[9][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0},
                             {1, 2}, {2, 1}, {0, 2}, {2, 2}};
    const std::size_t all = nodes == 4 ? 4 : 9;
@@ -83,7 +85,7 @@ FaceFunctions quadrilateral_functions(std::size_t nodes, double s, double t)
          along(i, 0) * across(j, 1);
    }
    if (nodes != 8) { return of; }
-   // Without the middle of the face, whose displacement is that of the eight nodes.
+   // Leaves out the middle of the face, whose displacement follows from the eight nodes.
    FaceFunctions eight = of.topRows(8);
    eight.topRows(4).rowwise() -= 0.25 * of.row(8);
    eight.bottomRows(4).rowwise() += 0.5 * of.row(8);
@@ -139,7 +141,7 @@ std::size_t nearest_edge(const std::vector<Vector3d> &x, std::size_t edge)
    return nearest;
 }
 
-/// Nodes of a face the other way round.
+/// Nodes of a face in the opposite sense.
 void turn_round(std::vector<Index> &face)
 {
    const auto corners = static_cast<Index>(corners_of(face.size()));
@@ -285,7 +287,7 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
          its.push_back(at->second);
          x.push_back(surface.nodes[at->second].position);
       }
-      // 2. Its area, and which way it turns.
+      // 2. Its area, and its sense.
       const std::vector<FaceShare> shares = shares_of(x);
       Vector3d whole(0, 0, 0);
       double size = 0;

@@ -79,7 +79,8 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
    { return 0.5 * box.sizes().maxCoeff(); };
    const Eigen::Vector3d centre = (resting.empty() ? whole : patch).center();
    double scale = half_width(resting.empty() ? whole : patch);
-   // One held node: turning about it is free, whatever round-off says of its spread.
+   // With one held node the rotation about it is free, even if round-off gives this patch a
+   // size.
    if (scale <= 1e-14 * (centre.lpNorm<1>() + half_width(whole))) { scale = half_width(whole); }
    if (scale <= 0) { scale = 1; }
    // Translations and rotations about the centre, of size one at the scale.

@@ -87,7 +87,7 @@ namespace
 /// The direction of alone_on_a_slope() of the node with the dofs x and y.
 std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
 {
-   // Entries of the two rows, within the node's block and beside it.
+   // Entries of the two rows, within the node's block and outside it.
    Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
    std::map<Eigen::Index, Eigen::Vector2d> beside;
    for (int k = 0; k < 2; ++k)
@@ -113,7 +113,7 @@ std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
    if (longest == 0) { return std::nullopt; }
    t /= longest;
    const Eigen::Vector2d n(-t[1], t[0]);
-   // Along an axis it is a single row, which is_linked() recognizes.
+   // If the direction is along an axis, it is a single row, which is_linked() recognizes.
    if (std::min(std::abs(n[0]), std::abs(n[1])) < 1e-12) { return std::nullopt; }
    for (const auto &[column, entries] : beside)
    {

@@ -11,7 +11,7 @@ namespace
 {
 
 const double degree = std::acos(-1.0) / 180;
-/// Radians: what round-off of coordinates may turn an edge by.
+/// Angle in radians by which round-off of coordinates may turn an edge.
 constexpr double round_off = 1e-6;
 
 double cross(const Vector2d &a, const Vector2d &b)
@@ -23,7 +23,7 @@ double cross(const Vector2d &a, const Vector2d &b)
 /// longest run of turns that is looked at.
 constexpr int beyond_end = 8;
 /// Number of vertices on each side of a vertex that tell whether it belongs to a profile that
-/// turns to and fro.
+/// turns left and right alternately.
 constexpr int around_profile = 8;
 
 /** A side that continues beyond its ends if it is a loop or has a mirror image there. */
@@ -170,7 +170,7 @@ void OpenSide::measure()
                       (length_[i - 1] * length_[i] * std::max((before + after).norm(), 1e-300));
       centre_[i] = (along_[i - 1] + along_[i] + along_[i + 1]) / 3;
    }
-   // Files of few digits have flanks that turn to and fro.
+   // In files of few digits straight flanks turn left and right alternately.
    double largest = 0;
    for (const double turn : turn_)
    {
@@ -186,7 +186,7 @@ void OpenSide::measure()
 }
 
 /// Four or more turns in a row in one direction, of similar curvature, are not round-off, which
-/// goes to and fro. However small, they belong to a slightly crowned side, however much a
+/// alternates in sign. Even small ones belong to a slightly crowned side, however much a
 /// chamfer beside it turns.
 void OpenSide::find_steady_runs()
 {
@@ -307,7 +307,8 @@ void OpenSide::find_short_runs()
          ++end;
       }
       const int turns = end - begin;
-      // If a straight flank is on the same curve as an arc, that curve is not one of the file.
+      // If a straight flank would be on the same curve as an arc, the curve of the file is not
+      // used.
       const auto flank = [&](int i)
       { return i > 0 && i < last() && inside(i) && !corner_[i] && !counts(i); };
       known = known && !(flank(begin - 1) && !parts(begin)) && !(flank(end) && !parts(end - 1));
@@ -331,10 +332,10 @@ bool OpenSide::to_and_fro(int i) const
    return corner_[i] && (against(i - 1) || against(i + 1));
 }
 
-/// Finds measured profiles. If a third of the turning vertices turn to and fro, the others do
-/// not lie on a curve either. Only the vertices around each one count, as other parts of the
-/// side may be different. Beside such vertices a few that turn in one direction do so by
-/// chance, unless they are twelve, or five with similar turns.
+/// Finds measured profiles. If a third of the turning vertices turn left and right alternately,
+/// the others do not lie on a curve either. Only the vertices around each one count, because
+/// other parts of the side may be different. A few vertices beside them that turn in one
+/// direction do so by chance, unless there are twelve, or five with similar turns.
 void OpenSide::drop_profile()
 {
    std::vector<bool> dropped = corner_;

@@ -34,8 +34,8 @@ Eigen::MatrixXd solve_square(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B)
 /// A⁻¹ b of a symmetric positive semidefinite A by pivoted LDLᵀ, where b lies in its range.
 Eigen::MatrixXd solve_semidefinite(const Eigen::MatrixXd &A, const Eigen::MatrixXd &b);
 
-/// least_squares() of more values than unknowns, with the errors that the scatter of these
-/// values leaves.
+/// least_squares() for more values than unknowns, with the errors that follow from the scatter
+/// of the values.
 struct ScatteredFit
 {
    Eigen::VectorXd x;

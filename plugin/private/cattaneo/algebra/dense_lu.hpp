@@ -14,7 +14,7 @@ class DenseLU
 public:
    /// Replaces the factors. False if the matrix is singular: pivot_ratio() is not above 1e-14.
    bool compute(Eigen::MatrixXd matrix);
-   /// Smallest by largest pivot, in size; 1 without rows.
+   /// Magnitude of the smallest pivot over that of the largest; 1 without rows.
    double pivot_ratio() const;
    /// Solves in place, one right-hand side a column; after a compute() that succeeded.
    void solve(Eigen::Ref<Eigen::MatrixXd> x) const;

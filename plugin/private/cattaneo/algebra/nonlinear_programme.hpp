@@ -72,7 +72,7 @@ struct ProgrammeSolution
    int iterations = 0;
 };
 
-/// By Ipopt, silent and without scaling: everything should be of order one.
+/// Solves by Ipopt, silently and without scaling, so everything should be of order one.
 ProgrammeSolution solve(const NonlinearProgramme &programme, const ProgrammeSettings &settings);
 
 } // namespace cattaneo

@@ -20,8 +20,8 @@ public:
    OneThread &operator=(const OneThread &) = delete;
 
    /// Factor for products and solutions that use each entry of a matrix once. They wait for
-   /// memory, so that one of their multiplications costs as much as this many in a product of
-   /// matrices.
+   /// memory, so that one multiplication in them costs as much as this number of
+   /// multiplications in a product of matrices.
    static constexpr double reads_once = 16;
 
 private:

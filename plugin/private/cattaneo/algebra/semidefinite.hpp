@@ -12,7 +12,7 @@ public:
    /// null_space: orthonormal columns, none if A is definite.
    SemidefiniteSolver(const Eigen::MatrixXd &A, const Eigen::MatrixXd &null_space);
 
-   /// False if A is not semidefinite, or if it has null vectors beside the given null space.
+   /// False if A is not semidefinite, or if it has null vectors outside the given null space.
    bool definite() const;
    /// x with A x = rhs, for a rhs orthogonal to the null space N; its part along diag(A) N is
    /// left out. Of all such x it is the one with Nᵀ diag(A) x = 0.

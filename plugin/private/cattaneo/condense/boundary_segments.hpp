@@ -15,7 +15,7 @@ struct SegmentNode
    double share = 0; ///< ∫φ ds
    bool on_axis = false;
 
-   /// Calls visit(value&) for every number of it.
+   /// Calls visit(value&) for every number of the node.
    template <class Visitor>
    void for_each(Visitor visit)
    {

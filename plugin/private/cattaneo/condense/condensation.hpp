@@ -43,8 +43,8 @@ struct ContactDofs
    std::vector<int> held; ///< positions in `all`, increasing
    /// Displacements by unit loads, `all` × loads. Empty if no load moves a held dof.
    Eigen::MatrixXd moved = {};
-   /// Those of `held` in whose plane (the one normal to their component) a load moves a dof. It
-   /// is then no plane of symmetry, though the node itself may be at rest.
+   /// The dofs of `held` in whose plane (the one normal to their component) a load moves a dof.
+   /// This is then no plane of symmetry, although the node itself may be at rest.
    std::vector<int> in_moved_plane = {};
 
    /// Notes that the load moves the dof at a position of `all`. InputError that names the node,
@@ -61,8 +61,8 @@ ContactDofs contact_dofs(const Trace &trace, Formulation formulation, int dofs);
 /// The same for a line. InputError also if the line is not valid (ContactLine::validate).
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
 
-/// Does a load move one of these dofs in the plane of a contact dof, across its component?
-/// `position` is the place of that dof among those of the trace.
+/// Does a load move one of these dofs in the plane normal to the component of a contact dof?
+/// `position` is the place of this contact dof among those of the trace.
 bool moves_plane(const Trace &trace, int position, const DofPlaces &places,
                  const std::vector<int> &fixed, const std::vector<BodyLoad> &loads);
 

@@ -13,12 +13,12 @@ struct FreeMotions
    Eigen::MatrixXd resultant; ///< work of each pattern's forces (columns) on each motion
 };
 
-/// Free motions of a body whose contact dofs are given. InputError if some motions are left
-/// with the contact nodes held as well.
+/// Free motions of a body whose contact dofs are given. InputError if some motions stay free
+/// even with the contact nodes held.
 FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> &contact);
 
 /** Properties of a free body: rigid motions meet no resistance, and the clamped contact
-    balances the loads. In exact arithmetic to impose these properties changes nothing. In
+    balances the loads. In exact arithmetic nothing changes if these properties are imposed. In
     floating point a motion that is large far from the contact (turning a half-plane of 10⁴
     contact widths) would leave round-off of 10⁻⁴ of the stiffness. All in global components. */
 class Equilibrium

@@ -16,11 +16,11 @@ inline int nearest_axis(const Eigen::Vector2d &direction)
    return std::abs(direction[0]) >= std::abs(direction[1]) ? 0 : 1;
 }
 
-/** Displacements of a node in x and y, as columns, that are v = 1 and w = 1 in its frame. They
-    are its tangent and normal, unless supports hold one of its components: that one lies along
-    the axis that is the nearest to the tangent (or normal). The node moves across that axis
-    alone, and as much of it as makes its displacement along the frame's normal (or tangent) 1.
-    So w is the opening along the line's own normal, and p a force along it. */
+/** Displacements of a node in x and y, as columns, for v = 1 and for w = 1. They are its
+    tangent and normal, unless supports hold one of its components. The held component then lies
+    along the axis that is nearest to the tangent (or normal). The node moves only across that
+    axis, by so much that its displacement along the frame's normal (or tangent) is 1. So w is
+    the opening along the line's own normal, and p a force along it. */
 inline Eigen::Matrix2d directions(const LineNode &node, bool v_held, bool w_held)
 {
    const Eigen::Vector2d tangent = node.tangent, normal = node.normal();
@@ -37,8 +37,7 @@ inline Eigen::Matrix2d directions(const LineNode &node, bool v_held, bool w_held
    return columns;
 }
 
-/// Does a direction, one of a frame that supports know, lie along the components that they
-/// hold?
+/// Does a direction of a frame lie along the components that supports hold?
 inline bool lies_in(const Eigen::Vector3d &direction, const std::array<bool, 3> &held)
 {
    double part = 0;
@@ -46,10 +45,10 @@ inline bool lies_in(const Eigen::Vector3d &direction, const std::array<bool, 3> 
    return part > 0.5;
 }
 
-/** Change of frame of the forces at every contact node: {q; p} = R {x; y}, in space
-    {q₁; q₂; p} = R {x; y; z}, with blocks R_i of as many rows as a node has components.
-    Displacements change back with Rᵀ. The rows of each block are across each other, and of
-    length 1 but where supports hold one component of a node whose frame leans on the axes
+/** Change of frame of the forces at every contact node: {q; p} = R {x; y}, in space {q₁; q₂; p}
+    = R {x; y; z}, with blocks R_i of as many rows as a node has components. Displacements
+    change back with Rᵀ. The rows of each block are perpendicular to each other, and of length 1
+    except where supports hold one component of a node whose frame is oblique to the axes
     (directions()). One component a node: q_i = R_i m_i, in torsion the circumferential force of
     a torque about the axis. */
 struct FrameChange
@@ -57,7 +56,7 @@ struct FrameChange
    int components = 0;
    Eigen::MatrixXd blocks; ///< n × components², the rows of each block one after the other
 
-   /// From global components to the frames of a contact line's nodes; of torsion, from torques
+   /// From global components to the frames of a contact line's nodes; in torsion, from torques
    /// about the axis to circumferential forces. `held`: rows {v; w} that supports hold, sorted.
    static FrameChange of(const ContactLine &line, const std::vector<int> &held = {})
    {
@@ -78,7 +77,7 @@ struct FrameChange
       }
       return made;
    }
-   /// The same of a surface, whose frames have the axes that supports hold.
+   /// The same for a surface, whose frames contain the axes that supports hold.
    static FrameChange of(const ContactSurface &surface)
    {
       FrameChange made{3, Eigen::MatrixXd(surface.size(), 9)};
@@ -118,7 +117,7 @@ struct FrameChange
       const Eigen::MatrixXd lengths = squares();
       for (Eigen::Index i = 0; i < lengths.rows(); ++i)
       {
-         // All of length 1, but for rounding.
+         // Are all of length 1, apart from rounding?
          if (components > 1 && turns(lengths.row(i))) { continue; }
          for (int k = 0; k < components * components; ++k)
          {
@@ -179,13 +178,13 @@ struct FrameChange
    }
 
 private:
-   /// Rows of lengths that are the same, or 1 to rounding.
+   /// Rows of equal length, or of length 1 apart from rounding.
    bool turns(const Eigen::RowVectorXd &squares) const
    {
       return components < 3 ? squares.minCoeff() == squares.maxCoeff()
                             : (squares.array() - 1).abs().maxCoeff() < 1e-12;
    }
-   /// Flat traces along the axes, either way, have R = ±1.
+   /// Flat traces along an axis, in either direction, have R = ±1.
    bool flat() const
    {
       for (int k = 0; k < components * components; ++k)
@@ -197,7 +196,7 @@ private:
    }
 };
 
-/// Of the trace of a body.
+/// The change of frame of a body's trace.
 inline FrameChange frames_of(const CondensedBody &body)
 {
    return body.surface.size() > 0 ? FrameChange::of(body.surface)

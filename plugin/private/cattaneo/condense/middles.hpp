@@ -79,7 +79,8 @@ private:
       Eigen::Index node;
       std::array<Eigen::Index, 2> ends;
    };
-   /// Calls with the rows of each middle and of its ends, one component after the other.
+   /// Calls the function with the rows of each middle and of its ends, one component after the
+   /// other.
    template <class Visitor>
    void each(Eigen::Index rows, Visitor visit) const
    {

@@ -9,35 +9,34 @@
 namespace cattaneo
 {
 
-/// Entries of a row of a stiffness on its diagonal and beside it.
+/// Entries of a row of a stiffness on the diagonal and off it.
 struct RowEntries
 {
    double diagonal = 0;
-   double largest = 0; ///< magnitude beside the diagonal
-   double sum = 0;     ///< of the magnitudes beside the diagonal
-   double squares = 0; ///< sum of k_ij²/k_jj beside the diagonal; infinite where a k_jj is 0
+   double largest = 0; ///< largest magnitude off the diagonal
+   double sum = 0;     ///< of the magnitudes off the diagonal
+   double squares = 0; ///< sum of k_ij²/k_jj off the diagonal; infinite if a k_jj is 0
 
    /// Adds the row of K, whose diagonal is in column `own` (-1: in none). `diagonals`: of the
    /// matrix, in the columns of K.
    void add(const SparseView &K, int row, int own, const Eigen::VectorXd &diagonals);
-   /// Do entries beyond round-off link the row with others? Entries beside the diagonal of no
-   /// more than 1e-12 of `most`, the largest such entry of the matrix, are round-off, unless
-   /// the diagonal is as small as they are, as in a soft material beside a stiff one.
+   /// Do entries above round-off link the row with others? Entries off the diagonal are
+   /// round-off if they are at most 1e-12 of `most`, the largest such entry of the matrix,
+   /// unless the diagonal is as small as they are, as in a soft material beside a stiff one.
    bool link(double most) const;
-   /// Does any entry beside the diagonal stand out from the round-off of `most`, and from that
-   /// of the diagonal?
+   /// Is any entry off the diagonal larger than the round-off of `most` and of the diagonal?
    bool stand_out(double most) const { return largest > 1e-12 * most && !holds_alone(); }
-   /** Does the diagonal hold the dof whatever the others do? Then other dofs move it by at most
-       1e-12 of their own displacement, and it adds less than a rounding to their stiffness: Σ
-       k_ij²/(k_ii k_jj) ≤ 1e-16. It acts as a support, be it a stiff spring or an eliminated
-       row whose zeros are round-off of a large diagonal. */
+   /** Does the diagonal alone hold the dof, however the others move? Then other dofs move it by
+       at most 1e-12 of their own displacement, and it adds less than a rounding to their
+       stiffness: Σ k_ij²/(k_ii k_jj) ≤ 1e-16. It acts as a support, be it a stiff spring or an
+       eliminated row whose zeros are round-off of a large diagonal. */
    bool holds_alone() const { return sum <= 1e-12 * diagonal && squares <= 1e-16 * diagonal; }
 };
 
 /// The diagonal of a square K.
 Eigen::VectorXd diagonal_of(const SparseView &K);
 
-/// The largest magnitude in rows of K beside the diagonal. `square`: rows and columns belong to
+/// The largest magnitude off the diagonal in rows of K. `square`: rows and columns belong to
 /// the same dofs; otherwise there is no diagonal.
 double largest_beside_diagonal(const SparseView &K, bool square = true);
 
@@ -68,7 +67,7 @@ struct AloneDirection
     slope that was eliminated in its own axes before K was turned back to x and y. Rows of
     `fixed` dofs (sorted) are skipped.
 
-    Both rows of the node then have entries beside the diagonal, but one is a multiple of the
+    Both rows of the node then have entries off the diagonal, but one is a multiple of the
     other. The direction that they do not resist is a principal one of the node's own 2 × 2
     block. */
 std::optional<AloneDirection> alone_on_a_slope(const SparseView &K, const DofPlaces &places,

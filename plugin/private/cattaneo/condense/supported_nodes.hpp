@@ -10,7 +10,7 @@ using HeldComponents = Eigen::Array<bool, Eigen::Dynamic, 2>;
 
 /** Sets frames and ends of a line from the supports of its nodes.
 
-    A node keeps the line's own tangent. A tangent that lies along an axis to round-off (1e-9)
+    A node keeps the line's own tangent. A tangent that is along an axis within round-off (1e-9)
     is turned onto the axis.
 
     An open chain that ends at a node which one support holds along it ends at a plane of
@@ -33,10 +33,10 @@ void meet_supports(ContactLine &line, const HeldComponents &held, const HeldComp
 void meet_supports(ContactLine &line, const CondensedBody &body);
 
 /// Turns the frames of a surface whose nodes are some of those that the body was condensed to,
-/// so that they have the axes which supports hold. InputError as of condense().
+/// so that the held axes are among their axes. InputError as for condense().
 void meet_supports(ContactSurface &surface, const CondensedBody &body);
 
-/// The frame of a node in space that has the axes which supports hold; `where` is the node in
+/// The frame of a node in space with the held axes among its axes; `where` is the node in
 /// sentences.
 Eigen::Matrix3d on_supports(const Eigen::Matrix3d &frame, const std::array<bool, 3> &held,
                             const std::string &where);
