@@ -61,7 +61,7 @@ std::shared_ptr<const mfem::SparseMatrix> gathered(const mfem::HypreParMatrix &K
    value = ranks.collect(value);
    if (!ranks.first()) { return nullptr; }
    const auto rows = static_cast<int>(length.size());
-   // For the matrix to own.
+   // Arrays that the matrix will own.
    auto *I = new int[rows + 1], *J = new int[column.size()];
    auto *data = new double[value.size()];
    I[0] = 0;

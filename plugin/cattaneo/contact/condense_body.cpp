@@ -118,7 +118,7 @@ public:
       if (ranks_.distributed()) { entries.add(view(others_), dof, -1, other_diagonals_); }
       return entries;
    }
-   /// The largest magnitude beside the diagonal, of all ranks.
+   /// The largest magnitude off the diagonal, of all ranks.
    double most() const
    {
       return most_;
@@ -224,8 +224,8 @@ void require_not_eliminated(const ElasticBody &body)
 
 #endif
 
-/// contact_dofs() of an MFEM body, global numbers, which are held, and what loads move.
-/// InputError, on all ranks, if one is in a guide.
+/// The contact dofs of an MFEM body as global numbers, which of them supports hold, and which
+/// ones loads move. InputError, on all ranks, if one is in a guide.
 ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
 {
    ContactDofs contact = contact_dofs(line, body.formulation(), body.dofs());

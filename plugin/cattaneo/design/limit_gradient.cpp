@@ -80,7 +80,7 @@ bool take_work(const LimitProblem &problem, double load_factor, const LimitRepor
 LimitGradient load_limit_gradient(const LimitProblem &problem, const LimitReport &limit,
                                   const std::vector<StiffnessChange> &stiffness)
 {
-   // The mechanism is scaled: its work on the varying loads falls by one a unit of λ.
+   // The mechanism is scaled so that its work on the varying loads falls by one per unit of λ.
    LimitGradient by;
    by.found = take_work(problem, limit.limit, limit, stiffness, by);
    by.load_factor = 0;

@@ -117,7 +117,7 @@ struct Sensitivity::System
       const int point = trace.states[k].point;
       return trace.history.multipliers.col(point + 1) - trace.history.multipliers.col(point);
    }
-   /// Has the tangential entry of a node no equation of forces?
+   /// Does the tangential entry of a node lack an equation of forces?
    bool sticks(std::size_t k, Index i) const
    {
       return held[i] || state(k).status[i] == NodeState::stick;
@@ -159,7 +159,7 @@ struct Sensitivity::System
    // Backward. Derivatives by the quantities that state k depends on.
    struct Adjoint
    {
-      VectorXd equations; ///< by what is added to the equation of each row
+      VectorXd equations; ///< by a term added to the equation of each row
       VectorXd clamped;   ///< by forces with the contact nodes clamped
       VectorXd imposed;   ///< by given displacements, zero in rows with an equation
    };
@@ -181,7 +181,7 @@ struct Sensitivity::System
              along.cwiseAbs().maxCoeff() > 1e-9 * forces.cwiseAbs().maxCoeff();
    }
    bool wears() const { return trace.wear.coefficient.size() > 0; }
-   /// Has the gap taken in what was worn since increment k began, before increment k + 1?
+   /// Was the wear since the beginning of increment k added to the gap before increment k + 1?
    bool updates_gap_after(std::size_t k) const
    {
       return k + 1 < trace.states.size() && trace.states[k + 1].depth != trace.states[k].depth;
@@ -203,8 +203,8 @@ struct Sensitivity::System
 
    StateEquations as_given;
    std::unique_ptr<StateEquations> as_held;
-   MatrixXd K_held, held_motions;        ///< the stiffness with one against these motions
-   long factorisations = 0, updates = 0; ///< of equations that are gone
+   MatrixXd K_held, held_motions;        ///< K plus a stiffness against these motions
+   long factorisations = 0, updates = 0; ///< of equations that were discarded
 };
 
 Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &trace,
@@ -514,7 +514,7 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
                result.forces,
                result.multipliers};
    VectorXd gap = x.by.gap;
-   Index in_gap = 0; // the last state up to which wear is part of it
+   Index in_gap = 0; // the last state whose wear is in the gap
    double share_change = 0;
    ProgressReport progress(monitor);
    for (Index k = 1; k < states; ++k)
@@ -661,7 +661,7 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
    // Then go back through the states. Each passes its derivatives on to the parameters and to
    // the state before.
    double by_share = 0; // derivative by the load of an event, from later states at that load
-   VectorXd by_worn = VectorXd::Zero(n); // by wear that the gap of later states has taken in
+   VectorXd by_worn = VectorXd::Zero(n); // by wear that was added to the gap of later states
    ProgressReport progress(monitor);
    for (Index k = states - 1; k > 0; --k)
    {

@@ -333,7 +333,7 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
    mfem::Mesh &mesh = *space_->GetMesh();
    std::vector<int> nodes;
    mfem::Array<int> dofs;
-   bool turns = true; // is any of the part off the axis?
+   bool turns = true; // does any of the part lie off the axis?
    for (int i : boundary_elements(mesh, part, where))
    {
       BoundaryEdge edge(mesh, i);

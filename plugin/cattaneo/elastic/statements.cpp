@@ -13,7 +13,7 @@ namespace cattaneo
 namespace
 {
 
-/// Refuses a point far outside the body, because the nearest node is not the one that the user
+/// Refuses a point far outside the body, because its nearest node is not the node that the user
 /// meant.
 void check_point(const ElasticBody &body, const std::string &where, double x, double y)
 {

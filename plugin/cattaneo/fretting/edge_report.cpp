@@ -41,7 +41,7 @@ void predict(const MarchedStates &states, const ContactEdge *before,
                                       "); the computed slip zone is longer"));
    }
    // If the next term of the expansion changes the fit by more than a tenth, the nodes are too
-   // few or too far from the edge for the square root.
+   // few, or too far from the edge, to resolve the square root.
    if (std::max(edge.k_n.relative_error, edge.k_t.relative_error) > 0.1 && d > 0)
    {
       solved.notes.push_back("the fit is uncertain: refine the contact near its edge");

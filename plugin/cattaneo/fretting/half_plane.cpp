@@ -12,8 +12,8 @@ InPlaneStress half_plane_stress(const Traction &pressure, const Traction &shear,
    const Complex i(0, 1);
    const Complex normal = -0.5 * pressure[0], tangential = 0.5 * i * shear[0];
    Complex yy = Complex(2 * normal.real(), 2 * tangential.imag());
-   // On the surface the slope may be infinite (contact edge, end of the slip zone), its product
-   // with the depth is zero.
+   // On the surface the slope may be infinite (contact edge, end of the slip zone), but its
+   // product with the depth is zero.
    if (y > 0) { yy += 2.0 * i * y * std::conj(-0.5 * pressure[1] + 0.5 * i * shear[1]); }
    return {4 * (normal + tangential).real() - yy.real(), yy.real(), -yy.imag()};
 }

@@ -59,7 +59,7 @@ double hertz_transition_friction(double constraint, double load_ratio)
 {
    require(load_ratio > 0 && load_ratio <= 1, "Q/(fP) is ", load_ratio,
            "; it must be above 0 and at most 1.");
-   // Surface maximum less the maximum below, which are two separate peaks.
+   // The maximum on the surface less the maximum below it; these are two separate peaks.
    const auto excess = [&](double f)
    {
       const auto surface = [&](double x, double)

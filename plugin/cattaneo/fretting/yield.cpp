@@ -21,8 +21,8 @@ double surface_von_mises(double f, double constraint, double t)
    const double m = square(1 - 2 * constraint);
    if (t < 0)
    {
-      // The only nonzero stress in the plane, 2f(√(1-t) - √-t), and the part of it that plane
-      // strain causes.
+      // The only nonzero stress in the plane is 2f(√(1-t) - √-t). Plane strain adds its share
+      // out of the plane.
       return std::sqrt(4 * (1 - constraint + square(constraint))) * f /
              (std::sqrt(1 - t) + std::sqrt(-t));
    }

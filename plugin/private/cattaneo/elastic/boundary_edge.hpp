@@ -11,8 +11,8 @@ namespace cattaneo
 {
 
 /** One boundary element as a parametrised curve x(s), 0 <= s <= 1 (the element's own reference
-    coordinate), with the side of the body. That is the side of the mesh element to which the
-    edge belongs, however both are numbered or oriented. */
+    coordinate), with the side of the body. The body is on the side of the mesh element to which
+    the edge belongs, however both are numbered or oriented. */
 class BoundaryEdge
 {
 public:
@@ -46,9 +46,9 @@ private:
    double size_ = 0.0;
 };
 
-/// Boundary elements that have an attribute of the part (the interval is not looked at).
-/// InputError, starting with `where`, if an attribute does not exist (with a list of those that
-/// do), the interval is empty or an element is not on the boundary of the mesh.
+/// Boundary elements that have an attribute of the part (its interval is ignored). InputError,
+/// starting with `where`, if an attribute does not exist (with a list of those that do), the
+/// interval is empty or an element is not on the boundary of the mesh.
 std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &part,
                                    const std::string &where);
 
