@@ -58,7 +58,7 @@ std::size_t nodes_of_solid(const std::string &type)
    return known.count(nodes) ? nodes : 0;
 }
 
-/// A side of an element that a surface names, -1: all of its outer ones.
+/// A side of an element that a surface names; -1: all outer sides of the element.
 struct Face
 {
    std::string surface, place;
@@ -77,7 +77,7 @@ struct Block
    std::optional<Formulation> formulation; ///< of its elements
 
    bool has_nodes() const { return !deck.places.empty(); }
-   /// In a map of sets, by a name in capitals with or without that of the instance.
+   /// Finds a set by its name in capitals, with or without the name of the instance.
    template <class Sets>
    auto find(Sets &sets, const std::string &set) const
    {
@@ -125,7 +125,7 @@ private:
    void support(const LineReader &in, const std::vector<std::string_view> &fields);
    /// The place for nodes and elements that a card gives by numbers alone.
    Block &home();
-   /// The places in which a name in a card is looked for.
+   /// The places in which a name in a card is searched.
    std::vector<Block *> blocks_of(const LineReader &in, std::string_view name);
    template <class Found>
    struct In
@@ -232,7 +232,7 @@ void DeckReader::begin(LineReader &in, int depth)
    begin_card(in);
 }
 
-/// InputError for cards that would make the body another one than is read.
+/// InputError for cards that would change the body from the one that is read.
 void DeckReader::require_known(const LineReader &in) const
 {
    const std::string &name = keyword_.name;
@@ -458,8 +458,8 @@ Block &DeckReader::home()
    {
       if (block->name == instance) { return *block; }
    }
-   // Beside a matrix there is one instance, and all numbers belong to it. The assembly of a
-   // mesh may have points of its own.
+   // With a matrix there is one instance, and all numbers belong to it. The assembly of a mesh
+   // may have points of its own.
    if (use_ == DeckUse::stiffness && instances_.size() == 1) { return *instances_[0]; }
    const bool only_part = parts_.size() == 1 && instances_.empty() && !whole_.has_nodes();
    return only_part ? parts_.begin()->second : whole_;
@@ -512,7 +512,7 @@ void DeckReader::node(const LineReader &in, const std::vector<std::string_view> 
 void DeckReader::elastic(const LineReader &in, const std::vector<std::string_view> &fields)
 {
    if (unknown_materials_.count(material_)) { return; }
-   // A second line is of another temperature.
+   // A second line is for another temperature.
    if (fields.size() < 2 || materials_.count(material_))
    {
       unknown_materials_.insert(material_);
@@ -719,7 +719,7 @@ void DeckReader::surface(const LineReader &in, const std::vector<std::string_vie
          members.insert(members.end(), nodes.begin(), nodes.end());
       }
    }
-   // Analytical ones and combinations are no parts of a body.
+   // Analytical surfaces and combinations of surfaces are no parts of a body.
    if ((type != "ELEMENT" && !type.empty()) || !keyword_.parameter("COMBINE").empty())
    {
       return;
@@ -739,7 +739,7 @@ void DeckReader::surface(const LineReader &in, const std::vector<std::string_vie
    }
 }
 
-/// Only the elements of a set, with what names them and their nodes.
+/// Keeps only the elements of a set, with the sets and surfaces that name them and their nodes.
 void keep_elements(Block &block, const std::vector<std::size_t> &kept)
 {
    InputDeck &deck = block.deck;
@@ -827,7 +827,7 @@ Block &DeckReader::chosen(const std::string &file, const DeckPart &part)
          }
          for (const auto &each : block->deck.element_sets)
          {
-            // CAE makes sets of its own for the sides of surfaces, as _HIT_S4.
+            // CAE makes sets of its own for the sides of surfaces, such as _HIT_S4.
             const std::string own = each.first.substr(each.first.find('.') + 1);
             if (own.empty() || own[0] != '_') { sets.push_back(each.first); }
          }
@@ -1047,7 +1047,7 @@ void DeckReader::support(const LineReader &in, const std::vector<std::string_vie
    }
    in.require(directions[0] >= 1, "the direction of a support is ", directions[0],
               ", must be at least 1");
-   // Across the plane of a plane body nothing moves, and rotations are none of a solid's.
+   // A plane body does not move across its plane, and a solid has no rotations.
    const bool in_space = home().formulation == Formulation::space;
    if (in_space && word != words.end())
    {

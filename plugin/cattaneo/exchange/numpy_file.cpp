@@ -86,7 +86,7 @@ std::string numpy_text(const Eigen::MatrixXd &M)
    return text;
 }
 
-/// The value of 'key': in the header.
+/// The value of 'key' in the header.
 std::string entry(const std::string &header, const std::string &key, const std::string &name)
 {
    const std::size_t found = header.find("'" + key + "':");

@@ -16,7 +16,8 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
             const NodalStiffness::Places &places, const std::vector<int> &numbers)
 {
    std::map<std::pair<int, int>, std::vector<NodalStiffness::Nodes>> edges;
-   std::map<std::pair<int, int>, std::string> seen; // by which element, on the left of the way
+   std::map<std::pair<int, int>, std::string>
+      seen; // the element on the left of each directed edge
    for (std::size_t e = 0; e < elements.size(); ++e)
    {
       const NodalStiffness::Nodes &nodes = elements[e];
@@ -216,7 +217,7 @@ outer_faces(const std::vector<NodalStiffness::Nodes> &elements,
    }
    std::sort(sides.begin(), sides.end(),
              [](const Side &one, const Side &other) { return one.corners < other.corners; });
-   // 2. Those of one element alone, with the middles of their edges.
+   // 2. Faces of one element alone, with the middles of their edges.
    std::vector<NodalStiffness::Nodes> all;
    for (std::size_t k = 0; k < sides.size();)
    {

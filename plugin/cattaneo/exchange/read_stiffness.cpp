@@ -41,7 +41,7 @@ void require_direction(const LineReader &in, const NodeDof &dof, Formulation for
                  : "");
 }
 
-// --- Rows that are no nodes' ---------------------------------------------------------------
+// --- Rows of no node ------------------------------------------------------------------------
 
 /// Eliminates internal rows, K_bb - K_bi K_ii⁻¹ K_ib. Of a support only a diagonal of 1 is
 /// left, because the true diagonal is lost: 1e36 was added to it.
@@ -163,8 +163,8 @@ std::vector<NodeDof> numbered_rows(const InputDeck &deck)
    return rows;
 }
 
-/// InputError if a matrix whose rows are numbered connects nodes that no element connects:
-/// then its rows are others than is thought.
+/// InputError if a matrix with numbered rows connects nodes that no element connects, because
+/// its rows then belong to other nodes than assumed.
 void require_elements_connect(const NodalStiffness &rows, const InputDeck &deck,
                               const std::string &file)
 {
@@ -246,7 +246,7 @@ void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalSti
       if (at[0] == at[1] && value >= 0.5 * support)
       {
          supported[at[0]] = true;
-         value = 1; // what was there before is lost
+         value = 1; // the value before is lost
       }
       // Multipliers, of internal nodes, have diagonals of any sign: judged when eliminated.
       entries.add(at[0], at[1], value);
@@ -432,7 +432,7 @@ public:
               "', must have K, or data, indices, indptr and shape (scipy's csr or csc)");
       return numpy_array(files_.at(name + ".npy"), file_ + "/" + name);
    }
-   /// Columns of whole numbers, one of which may be a list; InputError of others.
+   /// Columns of whole numbers, one of which may be a list; InputError for others.
    Eigen::MatrixXi whole(const std::string &name, Eigen::Index columns) const
    {
       NumpyArray array = (*this)(name);
@@ -572,7 +572,7 @@ void add_cards(const std::vector<Card> &cards, const std::string &file, NodalSti
                  card.name, moves ? "' moves " : "' loads ", dof_name(at),
                  ", but the matrix has no row for it, it must be without support in the step "
                  "that writes the matrix");
-         if (!there) { continue; } // a force on what is held
+         if (!there) { continue; } // a force on a held dof
          if (moves && value == 0) { entries.fix(at); }
          else { entries.add(card.name, card.control, at, value); }
       }
@@ -610,7 +610,7 @@ void take_nodes(InputDeck &deck, NodalStiffness &result)
    result.edges = std::move(deck.edges);
 }
 
-/// Of a matrix whose rows a `.dofs` file names.
+/// Reads the `.dofs` file that names the rows of a matrix.
 void read_dofs(const std::string &file, NodalStiffness &result)
 {
    const auto each_line = [&](const auto &visit)
@@ -635,7 +635,7 @@ void read_dofs(const std::string &file, NodalStiffness &result)
       [&](const LineReader &in, const std::vector<std::string_view> &fields)
       {
          if (is_word(fields[0])) { return; }
-         // The first row tells whether all are in space.
+         // The first row tells whether all rows are of a body in space.
          const bool first = result.dofs.empty();
          if (first && fields.size() == 5) { result.formulation = Formulation::space; }
          const bool in_space = result.formulation == Formulation::space;

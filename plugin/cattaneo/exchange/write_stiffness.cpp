@@ -66,7 +66,7 @@ NodalStiffness::Sets written_sets(const NodalStiffness &stiffness)
    return written;
 }
 
-/// Nodes that are counted from 0 are counted from 1, as other programs do.
+/// Nodes that are counted from 0 are counted from 1 in the file, as in other programs.
 NodalStiffness numbered_from_one(NodalStiffness stiffness)
 {
    int least = 1;
@@ -233,7 +233,7 @@ void write_abaqus(const std::string &file, const NodalStiffness &given)
    const NodalStiffness stiffness = numbered_from_one(given);
    require_forces(file, stiffness);
    const std::string deck_file = beside(file, ".inp");
-   // Rows of a node follow each other there.
+   // In this file the rows of a node follow each other.
    std::map<int, std::vector<std::size_t>> rows;
    for (std::size_t row = 0; row < stiffness.dofs.size(); ++row)
    {

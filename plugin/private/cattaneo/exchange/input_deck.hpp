@@ -25,9 +25,9 @@ struct DeckMaterial
    double young = 0, poisson = 0;
 };
 
-/** Contents of an .inp of CalculiX or ABAQUS about plane bodies, or beside a matrix about
-    solids. Names are in capitals. Of several instances only the chosen one is kept, and its
-   sets lose the name of the instance. */
+/** Contents of an .inp of CalculiX or ABAQUS: plane bodies, or solids if it accompanies a
+    matrix. Names are in capitals. Of several instances only the chosen one is kept, and its
+    sets lose the name of the instance. */
 struct InputDeck
 {
    using Nodes = NodalStiffness::Nodes;
@@ -38,7 +38,7 @@ struct InputDeck
       Nodes nodes; ///< corners, then the middles of its sides. The number of corners is 3 or 4
                    ///< for plane and axisymmetric elements, 2 for trusses, 0 for others.
       std::size_t corners = 0;
-      bool is_solid = false; ///< C3D4 to C3D20; beside a matrix alone
+      bool is_solid = false; ///< C3D4 to C3D20; only with a matrix
       int section = 0;       ///< number of its *SOLID SECTION, from 1; 0: none
    };
 
@@ -55,14 +55,14 @@ struct InputDeck
    /// Materials by name, without those that are not isotropic or not elastic.
    std::map<std::string, DeckMaterial> materials;
    std::vector<Card> cards;
-   std::set<std::string> keywords; ///< all that are there
+   std::set<std::string> keywords; ///< all that exist
 };
 
 /// What a deck is read for.
 enum class DeckUse
 {
-   stiffness, ///< nodes, supports and loads beside a matrix
-   mesh       ///< elements and names alone
+   stiffness, ///< nodes, supports and loads of a matrix
+   mesh       ///< only elements and names
 };
 
 /// Which body of a deck is read.
@@ -81,8 +81,8 @@ struct DeckPart
     InputError, with file and line, for cards that would change the body without being read:
     cards that generate nodes or elements, couplings of nodes, nodes that are not in one plane,
     to 1e-9 of the extent of the body, a thickness that is not 1, elements of both formulations,
-    surfaces inside of the body, several instances or parts if `part` names none of them. Beside
-    a matrix also for *TRANSFORM, contact pairs and a second instance. */
+    surfaces inside of the body, several instances or parts if `part` names none of them. With a
+    matrix also for *TRANSFORM, contact pairs and a second instance. */
 InputDeck read_input_deck(const std::string &file, DeckUse use, const DeckPart &part = {});
 
 } // namespace cattaneo

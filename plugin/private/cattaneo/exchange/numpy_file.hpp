@@ -24,7 +24,7 @@ struct NumpyArray
 NumpyArray numpy_array(const std::string &content, const std::string &name);
 
 /// The files in a zip archive by name, stored without compression as np.savez does; InputError
-/// of any other.
+/// for any other archive.
 std::map<std::string, std::string> stored_files(const std::string &archive,
                                                 const std::string &name);
 

@@ -19,7 +19,7 @@ public:
 
    /** The whole matrix. InputError if an entry is listed twice, if an entry and its mirror
        image are both there and differ by more than 1e-10 of the largest, or if a row (one that
-       `is_elastic`) has no positive diagonal. The sentence begins with `file`, rows are called
+       `is_elastic`) has no positive diagonal. The sentence begins with `file`, and names rows
        by `row_name`. */
    Matrix matrix(
       int size, const std::string &file, const std::function<std::string(int)> &row_name,
