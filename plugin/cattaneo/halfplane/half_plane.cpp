@@ -167,9 +167,9 @@ public:
    }
 };
 
-/** Least eigenvalue of F scaled to a diagonal of ones, by inverse iteration (from above, by a
-    few per cent). Entries of F wrong by ε √(F_ii F_jj) at random change energies, and so S, by
-    about 2 ε √n over it. */
+/** Least eigenvalue of F scaled to a diagonal of ones, by inverse iteration (a few per cent too
+    large). Random errors ε √(F_ii F_jj) in the entries of F change energies, and so S, by a
+    relative 2 ε √n over this eigenvalue. */
 double least_eigenvalue(const DenseCholesky &factor, const VectorXd &diagonal)
 {
    const Index n = diagonal.size();
@@ -375,7 +375,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
       [&](double x)
       { return measure(formulation, x) * lever(formulation, x) * lever(formulation, x); });
 
-   // The free ones of all unknowns. Those on the axis are the last of each component.
+   // The free unknowns. In each component those on the axis come last.
    const Index n = line.size(), unknowns = trace.unknowns(), axis = unknowns - n;
    std::vector<int> kept, free; // unknowns, and rows of S
    for (int c = 0; c < components(formulation); ++c)
@@ -497,7 +497,8 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
    const auto below = static_cast<int>(bodies.size());
    for (Interface &one : interfaces)
    {
-      // If its body ends at a plane of symmetry, the half-plane must say whether it does too.
+      // If its body ends at a plane of symmetry, the half-plane must say whether it is
+      // symmetric there.
       const int first = one.first.body;
       if (one.second.body == below && first >= 0 && first < below)
       {
@@ -517,7 +518,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
    }
    require(!standing.empty(),
            "half-plane: it is in no interface, must be the second side of one");
-   // The lines of bodies on it run in the opposite direction of its own.
+   // The lines of the bodies on the half-plane run opposite to its own line.
    std::stable_sort(standing.begin(), standing.end(),
                     [](const Standing &a, const Standing &b) { return a.along > b.along; });
    ContactLine all;

@@ -131,7 +131,7 @@ DirectedEdges edges_of(const HalfSpace &contact)
    return edges;
 }
 
-/// Refuses triangles that lie on each other, as far as the middle of one lies within another.
+/// Refuses triangles that overlap, if the middle of one lies within another.
 void refuse_overlap(const HalfSpace &contact)
 {
    const std::vector<Polygon> triangles = polygons_of(contact);
@@ -207,9 +207,9 @@ MatrixXd flexibility_of_triangles(const HalfSpace &contact)
 }
 
 /** Flexibility of nodal forces: rows and columns of the n first tangents, then of the second
-    ones, then of the normals. Rectangles that lie the same way from each other have the same
-    influence, which is integrated once; with the opposite way it is the transposed one, so that
-    the matrix is symmetric to the last bit. */
+    ones, then of the normals. Pairs of rectangles with the same distance vector have the same
+    influence, which is integrated once. With the opposite vector it is the transposed one, so
+    that the matrix is symmetric to the last bit. */
 MatrixXd flexibility(const HalfSpace &contact)
 {
    if (contact.triangles.rows() > 0) { return flexibility_of_triangles(contact); }

@@ -51,7 +51,7 @@ void write_vtu(const std::string &file, const HalfSpace &contact, const ReducedP
            "VTU file '", file, "': the reduced problem does not belong to these half-spaces");
    state.validate(problem);
 
-   // Corners run round each cell, which has its own ones.
+   // Corners run round each cell. No two cells share corners.
    const std::vector<Polygon> cells = polygons_of(contact);
    const auto sides = static_cast<Index>(cells.front().size());
    Eigen::MatrixX3d corners = Eigen::MatrixX3d::Zero(sides * n, 3);

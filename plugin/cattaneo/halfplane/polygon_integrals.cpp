@@ -5,10 +5,10 @@
 // The kernels are derivatives of r and of d (ln r)/2: x²/r³ = ∂²r/∂y², x y/r³ = -∂²r/∂x∂y and
 // x/r² = ∂(ln r)/∂x, where ln r is the divergence of d (ln r)/2 but for a constant. Each
 // derivative makes an integral over a polygon one along its edges (divergence theorem), where
-// the outward normal times the length of an edge e is (e_y, -e_x). Two polygons so come down to
-// two edges. The way from one to the other runs over a parallelogram, and the functions are
-// homogeneous: from triangles between the origin and its sides, integrals along these sides
-// remain.
+// the outward normal times the length of an edge e is (e_y, -e_x). So integrals over two
+// polygons become integrals over pairs of edges. The way from one to the other runs over a
+// parallelogram, and the functions are homogeneous: from triangles between the origin and its
+// sides, integrals along these sides remain.
 
 namespace cattaneo
 {

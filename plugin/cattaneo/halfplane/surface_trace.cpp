@@ -76,7 +76,8 @@ SurfacePoints SurfaceTrace::points(const SurfaceElement &element, const VectorXd
 {
    const LobattoBasis &functions = lobatto_basis(element.order());
    const MatrixXd values = functions.values(t);
-   // With differences to the first node small elements far from the origin lose no digits.
+   // Places are counted from the first node, so that small elements far from the origin lose no
+   // digits.
    const VectorXd from_first = element.x.array() - element.x[0];
    return {values * from_first, values * (functions.slopes * from_first), values.transpose()};
 }

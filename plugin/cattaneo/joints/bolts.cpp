@@ -71,7 +71,7 @@ MarchReport nothing_yet(double time)
    return report;
 }
 
-/// A straight way from the loads of one state to those of another.
+/// A straight path from the loads of one state to those of another.
 LoadHistory way(double from, const VectorXd &first, double to, const VectorXd &last)
 {
    LoadHistory history;
@@ -131,7 +131,7 @@ bool BoltedJoint::tightens(std::size_t bolt, const LoadHistory &history,
                            const LoadPiece &piece) const
 {
    const Index k = load(bolt);
-   // A bolt that is not there yet, and is named with a force of zero, is still not there.
+   // A bolt that was never tightened and is named with a force of zero remains loose.
    const bool none = piece.from[k] == 0 && piece.to[k] == 0;
    return piece.from[k] != piece.to[k] || (!none && history.states(piece.point + 1, k));
 }
@@ -212,7 +212,7 @@ std::size_t BoltedJoint::pushing(const Part &part, const ContactState &state) co
 }
 
 /// Goes to the load at which the force of a bolt is zero, between a state in which it pulls and
-/// one in which it pushes. Uses regula falsi over the share of the way (Illinois).
+/// one in which it pushes. Uses regula falsi over the share of the path (Illinois).
 void BoltedJoint::go_back(const Part &part, const ContactState &before,
                           const ContactState &beyond, std::size_t bolt,
                           const MarchSettings &settings, ContactState &state) const

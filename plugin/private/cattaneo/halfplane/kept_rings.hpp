@@ -8,8 +8,8 @@
 namespace cattaneo
 {
 
-/// Keeps the integrals about an axis of the last surface, because a body and its torsion need
-/// the same ones one after the other. Safe with several threads.
+/// Keeps the axisymmetric integrals of the last surface, because a body and its torsion body
+/// need the same ones one after the other. Safe with several threads.
 class KeptRings
 {
 public:

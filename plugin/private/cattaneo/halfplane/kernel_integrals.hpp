@@ -38,7 +38,7 @@ SurfaceKernel logarithm();
 SurfaceKernel ring_even();
 SurfaceKernel ring_odd();
 
-/// Integrals over one surface about an axis, with the kernels ring_even(), ring_odd(), and
+/// Integrals over one axisymmetric surface, with the kernels ring_even(), ring_odd(), and
 /// ring_odd() times r s, which torsion needs. All of them follow from one arithmetic-geometric
 /// mean for each pair of points.
 struct RingIntegrals

@@ -42,7 +42,7 @@ struct Surface
    }
 };
 
-/// The trace of a line, in which nodes keep their numbers and one on the axis is the last.
+/// The trace of a line. Nodes keep their numbers, and a node on the axis comes last.
 SurfaceTrace trace_of(const ContactLine &line, const Surface &surface);
 
 } // namespace cattaneo
