@@ -214,8 +214,8 @@ std::string name(const double *place)
    return text.str();
 }
 
-/// The list of the first rank that has one, on all ranks. Empty if none has one. All lists have
-/// this length.
+/// Sends the list of the first rank that has one to all ranks. Empty if no rank has one. All
+/// lists have this length.
 std::vector<double> first_of_all(const Ranks &ranks, const std::vector<double> &here,
                                  std::size_t length)
 {

@@ -38,7 +38,7 @@ public:
    /// An integer of 8 bytes.
    long large() { return number<std::uint64_t, long>(); }
    double real() { return number<double, double>(); }
-   /// How many of something there are, no more than the file can hold.
+   /// A count of items, which is an error if the file cannot hold so many.
    long count(long value)
    {
       require(value >= 0 && value <= size_, "mesh file has a count of ", value, " in ",
@@ -61,7 +61,7 @@ public:
       std::string line;
       while (std::getline(in_, line) && line.rfind(end, 0) != 0) {}
    }
-   /// That the section is at its end.
+   /// Requires that the section ends here.
    void require_end()
    {
       const std::string end = "$End" + section_.substr(1);

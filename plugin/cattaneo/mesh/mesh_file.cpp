@@ -51,7 +51,7 @@ long integer(std::istream &in, const std::string &what)
    return value;
 }
 
-/// A count of things that are in the file, so that no more than its size can be right.
+/// A count of items in the file. It cannot exceed the file's size.
 long count(std::istream &in, const std::string &what, long most)
 {
    const long value = integer(in, "the number of " + what);
@@ -84,7 +84,7 @@ void check_coordinate(const std::string &word, const std::string &what)
 class Edges
 {
 public:
-   /// A segment is one of the boundary; of others the first vertices are the corners.
+   /// A segment is a boundary element. In other elements the first vertices are the corners.
    void add(const std::vector<long> &vertices, std::size_t corners, const std::string &what)
    {
       if (corners == 2)
@@ -103,7 +103,7 @@ public:
             "elements: is this one listed twice, or does it overlap others?");
       }
    }
-   /// At the end of a file.
+   /// To be called at the end of a file.
    void check() const
    {
       require(!boundary_.empty(),
@@ -308,7 +308,7 @@ private:
    bool out_;
 };
 
-/// Groups of Gmsh by their names; none of another file.
+/// Groups of Gmsh by their names; none for other files.
 MeshNames gmsh_names(const std::string &file)
 {
    MeshNames names;
@@ -336,7 +336,8 @@ MeshNames gmsh_names(const std::string &file)
    return names;
 }
 
-/// The attributes of both lips of a line to split: its own, and the first that no line has.
+/// The attributes of both lips of a line to split: that of the line, and the first that no line
+/// has.
 std::array<long, 2> lips(const GmshMesh &mesh, const MeshNames &names, const std::string &line)
 {
    const auto found = names.boundary.find(line);
@@ -465,7 +466,7 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
    for (int v = 0; v < mesh.GetNV(); ++v)
    {
       const double *at = mesh.GetVertex(v);
-      // Sorted along a direction that no mesh prefers, few nodes are near each other.
+      // Sorted along a direction that no mesh prefers, so that few nodes are near each other.
       vertices.push_back({0.8191 * at[0] + 0.5736 * at[1], at[0], at[1], 0, false});
    }
    double farthest = 0;

@@ -208,7 +208,7 @@ Blend blend(mfem::Geometry::Type shape, const int *at, const mfem::IntegrationPo
 }
 
 /// Distance of the nodes of an edge from its chord, over that of its curve: 0 for a straight
-/// edge, 1 for one that is curved as its vertices tell.
+/// edge, 1 for an edge that follows the curve through the vertices.
 double curved(mfem::Mesh &mesh, const OuterEdge &edge)
 {
    if (!mesh.GetNodes()) { return 0; }

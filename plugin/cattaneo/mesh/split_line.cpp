@@ -30,7 +30,7 @@ std::vector<DirectedEdge> sides_of(const GmshMesh::Element &element)
    return found;
 }
 
-/// Positive if the corners of an element are numbered counterclockwise.
+/// Twice the area of an element, positive if its corners are numbered counterclockwise.
 double turn(const GmshMesh &mesh, const GmshMesh::Element &element)
 {
    double area = 0;

@@ -222,7 +222,7 @@ void ContactLineFields::write(const ContactState &state)
    array("opening", state.w + problem_.gap);
    vtp << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 
-   std::vector<double> times = times_; // kept when the files are
+   std::vector<double> times = times_; // become times_ once the files are written
    times.push_back(state.time);
    std::ostringstream pvd;
    pvd.precision(17);

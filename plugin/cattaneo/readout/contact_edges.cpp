@@ -402,8 +402,8 @@ std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactS
    return pairs;
 }
 
-/// K_T of every edge, between the solution with the nodes in contact stuck and those with one
-/// more at each edge in turn: where the edge itself lies.
+/// K_T of every edge at its own position, interpolated between the solution with the nodes in
+/// contact stuck and the solutions with one more stuck node at each edge in turn.
 void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
               const ContactState &loaded, CrackedBody cracked, const FitSettings &settings,
               std::vector<ContactEdge> &edges)
@@ -445,8 +445,8 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
    for (std::size_t e = 0; e < count; e++)
    {
       FittedIntensity &k_t = edges[e].k_t;
-      // Friction bounds the shear that pressing has left, so it has no K_T. The K_T that a fit
-      // finds in it is an error of the whole.
+      // Friction bounds the shear that pressing has left, so the K_T of this shear is zero. A
+      // K_T that a fit finds in it is an error of the whole K_T.
       const double left = std::abs(fitted(pressed, e, pairs[e].from.position).value);
       const double error = k_t.relative_error * std::abs(k_t.value) + doubtful[e] + left;
       k_t.value = value[e];

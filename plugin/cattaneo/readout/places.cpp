@@ -17,7 +17,7 @@ Eigen::Vector2d place_along(const ReducedProblem &problem, const ContactChain &c
    if (last == 0) { return place(0); }
    if (chain.loop && (at < arc[0] || at > arc[last]))
    {
-      // The way from the last node to the first one.
+      // The straight line from the last node to the first one.
       const double length = (place(0) - place(last)).norm(),
                    share = (at < arc[0] ? length + at - arc[0] : at - arc[last]) / length;
       if (share >= 0 && share <= 1) { return place(last) + share * (place(0) - place(last)); }

@@ -124,8 +124,8 @@ bool slip_front(const Bracket &bracket, const VectorXd &way, ZoneBorder &edge)
           bracket.accept(last_two, std::numeric_limits<double>::quiet_NaN(), 1.0, edge);
 }
 
-/// Edge of a stick zone from its own side, by the squared frictional reserve. Nodes that stick
-/// on the limit have no reserve, so they do not show where slip ends.
+/// Edge of a stick zone from the side of the sticking nodes, by the squared frictional reserve.
+/// Nodes that stick on the limit have no reserve, so they do not show where slip ends.
 ZoneBorder stick_edge(const Bracket &bracket, const VectorXd &reserve2)
 {
    ZoneBorder edge = bracket.middle();
@@ -143,7 +143,7 @@ struct Profiles
 {
    std::vector<NodeState> states;
    VectorXd pressure2, reserve2, opening, way; ///< the last two to the power 2/3
-   std::vector<bool> usable;                   ///< of the nodes for their way
+   std::vector<bool> usable;                   ///< may the slip path of a node be used?
 };
 
 void check_line(const ReducedProblem &problem)

@@ -23,7 +23,8 @@ namespace cattaneo
     ranks, and all throw. */
 void check_elements(mfem::Mesh &mesh);
 
-/// Numbers of the elements of this rank whose own shape is not as above.
+/// Numbers of the elements of this rank whose own shape does not meet the first two conditions
+/// above.
 std::vector<int> folded_elements(mfem::Mesh &mesh, const std::vector<int> &elements);
 
 } // namespace cattaneo

@@ -40,8 +40,8 @@ struct GmshMesh
    std::string text() const;
 };
 
-/** A mesh that Gmsh wrote in format 4.1 or 2.2, ASCII or binary. `size` of the file in bytes
-    limits the counts that are believed. InputError, with the section, if the file is cut short,
+/** A mesh that Gmsh wrote in format 4.1 or 2.2, ASCII or binary. `size` of the file in bytes is
+    an upper limit of the counts in it. InputError, with the section, if the file is cut short,
     is of another version or has numbers of more than 32 bits. */
 GmshMesh read_gmsh(const std::string &file, long size);
 
