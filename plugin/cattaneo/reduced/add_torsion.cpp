@@ -18,7 +18,7 @@ UnionRows twisting_rows(UnionRows rows, const std::vector<CondensedBody> &twisti
    {
       const auto &[b, node] = row.dependent[0];
       if (!holds(twisting[b], node, 0)) { continue; }
-      // The node faces nothing, or a single node that is held as well.
+      // The node has no node opposite, or a single one that is held as well.
       row.slides[0] = false;
       const NodeOfBody *other = row.partner();
       require(other ? holds(twisting[other->first], other->second, 0) : row.shares.size() == 1,

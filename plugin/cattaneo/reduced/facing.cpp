@@ -20,7 +20,8 @@ Eigen::VectorXd ElementCurve::functions(double s) const
 
 Vector2d ElementCurve::place(double s) const
 {
-   // With differences to the first node small elements far from the origin lose no digits.
+   // Places are counted from the first node, so that small elements far from the origin lose no
+   // digits.
    const Vector2d from = element->points.col(0);
    return from + (element->points.colwise() - from) * functions(s);
 }

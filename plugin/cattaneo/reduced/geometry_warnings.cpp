@@ -33,7 +33,8 @@ std::string at(const Vector2d &place)
    return sentence("(", place[0], ", ", place[1], ")");
 }
 
-/// An end that is taken for a plane of symmetry though the line is off it.
+/// An end that is taken for a plane of symmetry although the line meets it at another angle
+/// than 90 degrees.
 void say_symmetry(const CondensedBody &body, const std::string &name,
                   std::vector<std::string> &said)
 {
@@ -193,8 +194,8 @@ std::vector<ShortEdge> short_edges(const CondensedBody &body, int number)
    return found;
 }
 
-/// Nodes at edges that are much shorter than those beside them, where they bear more than all
-/// other nodes of the interface.
+/// Nodes at edges that are much shorter than those beside them, if their pressure exceeds that
+/// of all other nodes of the interface.
 void say_short_edges(const Reduction &reduction, const InterfaceReport &face,
                      const Eigen::VectorXd &p, std::vector<std::string> &said)
 {
@@ -323,7 +324,7 @@ void say_polygon(const Reduction &reduction, const InterfaceReport &face,
          }
          const double off = std::abs(its) * edge.length() * edge.length() / 8;
          if (!fits || off <= 1e-6 * edge.length()) { continue; }
-         // The gap of the nodes beside it, which may be large against that.
+         // The gap of the nodes beside it, which may be large compared with that distance.
          double least = std::numeric_limits<double>::infinity();
          for (Index i = 0; i < face.nodes; ++i)
          {

@@ -38,7 +38,8 @@ LineEnd other_end(const MetInterface &met, Index i, bool last)
          const bool at_end =
             mortar.nodes[i] == (last ? own.first + own.nodes - 1 : own.first) && !own.loop;
          if (!faces || (at_end && beyond > 1e-6 * node.spacing)) { continue; }
-         // In a chain of one node both ends are there: the end that does not continue decides.
+         // In a chain of one node this node is both ends: the end that does not continue
+         // decides.
          if (chain.nodes == 1)
          {
             return chain.ends[0] == LineEnd::smooth ? chain.ends[1] : chain.ends[0];
@@ -103,8 +104,8 @@ InterfaceReport report_of(const MetInterface &met)
    }
    report.chords = mortar.chords;
    report.curved = mortar.curved;
-   // On an obstacle a given gap is that of its shape. Sides that match have the same chords,
-   // but of sides that are paired by name one may be straight.
+   // On an obstacle a given gap is that of its shape. Sides that match have the same chords. If
+   // the user pairs two sides, one of them may be straight.
    const bool same = report.matching && !given.pairing;
    if ((given.gap && met.master.body >= 0) || given.tied || same)
    {

@@ -473,7 +473,8 @@ bool RowsOfInterface::can_be_slave(const Slaves &taken, bool in_rings)
          without.push_back(k);
       }
    }
-   // Each node without a row passes its part to its neighbours, which may then close a ring.
+   // Each node without a row passes its part to its neighbours, and their rows may then close a
+   // ring.
    for (std::size_t before = without.size() + 1; without.size() != before;)
    {
       if (without.size() >= met.slave.nodes.size())

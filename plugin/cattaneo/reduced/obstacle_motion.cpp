@@ -180,7 +180,7 @@ VectorXd Reduction::moved(const VectorXd &u, const VectorXd &multipliers) const
 {
    VectorXd all = u;
    if (obstacle_.size() > 0) { all += obstacle_ * multipliers; }
-   // Those that are free follow what the others do.
+   // Free motions follow from the other displacements.
    if (free_motions_.size() > 0)
    {
       VectorXd far = by_load_ * multipliers.head(by_load_.cols());
@@ -199,7 +199,7 @@ void Reduction::add_obstacle_motion(const std::string &name,
    // The body moves by u + ℓ d: f = K (u + ℓ d) + …, and the reaction is dᵀ f.
    const Eigen::VectorXd f = problem.K * d;
    const auto k = static_cast<Eigen::Index>(problem.patterns.size());
-   // Unknown responses of the other loads stay unknown.
+   // If the responses of the other loads are unknown, they stay unknown.
    const bool known = problem.knows_loads();
    if (known)
    {

@@ -55,9 +55,9 @@ void require_radius(double radius)
            ", must not be zero (a hole's is negative)");
 }
 
-/// Distance g along `looks` from a place to a disc, a sphere or (of what is across its axis) a
-/// cylinder: |e + g looks| = |radius|, with the place at e relative to the centre. Of the two
-/// roots it is the one on the side of the body. A negative radius is that of a hole.
+/// Distance g along `looks` from a place to a disc, a sphere or a cylinder (with components
+/// across its axis only): |e + g looks| = |radius|, with the place at e relative to the centre.
+/// The root on the side of the body is taken. A negative radius is that of a hole.
 template <class Vector>
 double to_ball(const Vector &e, const Vector &looks, double radius)
 {
@@ -186,8 +186,8 @@ VectorXd gaps_to_cylinder(const ContactSurface &surface, const Vector3d &point,
 namespace
 {
 
-/// The way to where a function of it is zero, outwards or inwards in steps that double; not a
-/// number where there is none within 1e6 steps.
+/// The distance at which a function of it is zero, sought outwards and inwards in steps that
+/// double; NaN if there is none within 1e6 steps.
 template <class Function>
 double first_zero(const Function &above, double step)
 {

@@ -37,7 +37,7 @@ bool knows_elements(const ContactLine &line)
                        [](const LineChain &chain) { return chain.elements.empty(); });
 }
 
-/// Nodes of line 2 for those of line 1, as far as they are found.
+/// Nodes of line 2 for those of line 1, where one was found.
 struct Matches
 {
    std::vector<int> partner; ///< -1: none

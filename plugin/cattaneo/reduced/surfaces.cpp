@@ -70,7 +70,7 @@ Side surface_side(const InterfaceSide &given, const std::vector<CondensedBody> &
    for (const SurfaceNode &node : side.surface.nodes)
    {
       const auto found = number.find(node.dofs);
-      // Dofs alone are numbers that other bodies have too.
+      // Numbers of dofs alone may coincide with those of other bodies.
       const bool same = found != number.end() &&
                         (body.surface.nodes[found->second].position - node.position).norm() <=
                            1e-9 * node.spacing;
@@ -245,7 +245,8 @@ std::vector<ContactRow> rows_on_surfaces(const Interface &given,
       const NodeOfBody master = on_obstacle
                                    ? NodeOfBody(-1, 0)
                                    : NodeOfBody(met.master.body, met.master.nodes[partners[i]]);
-      // Nodes that other rows hold together already, as the tip of a crack is one node.
+      // Nodes that other rows hold together already. The tip of a crack, for instance, is one
+      // node.
       if (slave == master || !joined.join(slave, master))
       {
          met.without_row.push_back(i);

@@ -39,7 +39,7 @@ Stiffness stiffness(const std::vector<CondensedBody> &bodies, const RelativeDisp
       const MatrixXd &S = bodies[b].S;
       const std::vector<int> &free = map.free[b];
       const auto rows = static_cast<Index>(free.size());
-      // Coordinates in rows, those of a coordinate one after the other.
+      // One row of Et for each coordinate; its entries stand one after the other in memory.
       const RelativeDisplacement::Matrix Et =
          RelativeDisplacement::Matrix(map.E.middleRows(map.offsets[b], rows)).transpose();
       const int *begin = Et.outerIndexPtr(), *row = Et.innerIndexPtr();
@@ -220,7 +220,7 @@ std::vector<int> free_bodies(const std::vector<CondensedBody> &bodies)
    return free.empty() ? all : free;
 }
 
-/// Rows {v; w} of nodes, of `all` nodes.
+/// Rows of these nodes in {v; w} of `all` nodes.
 std::vector<int> components_of(const std::vector<int> &nodes, Index all, int components)
 {
    std::vector<int> rows;
@@ -267,7 +267,7 @@ MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRow
    return moved;
 }
 
-/// A body's response to its own loads.
+/// The response of a body to the loads on it.
 void add_response(const CondensedBody &body, const std::vector<int> &index, MatrixXd &H)
 {
    for (std::size_t i = 0; i < index.size(); ++i)
@@ -334,7 +334,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
    const auto count = static_cast<Index>(patterns.size());
    Block block;
 
-   // Loads on all bodies, and the bodies' own responses to them.
+   // Loads on all bodies, and the response of each body to its loads.
    block.H = MatrixXd::Zero(count, count);
    std::vector<MatrixXd> forces;
    VectorXd scale = VectorXd::Zero(count);
@@ -440,7 +440,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       for (Index load = 0; load < moved.cols(); ++load)
       {
          const double by = std::abs(moved(shared->free[k], load));
-         // More than the round-off of two sides that are moved together.
+         // Larger than the round-off of two sides that are moved together.
          if (by > 1e-12 * moved.col(load).cwiseAbs().maxCoeff())
          {
             block.moved.push_back({static_cast<Index>(k), static_cast<int>(load)});

@@ -15,7 +15,8 @@ inline double rounded(double value)
    std::snprintf(text, sizeof text, "%.6g", value);
    return std::strtod(text, nullptr);
 }
-/// A measured place in a sentence. What is round-off beside its other coordinate is 0.
+/// A measured place in a sentence. A coordinate that is round-off of the other one is written
+/// as 0.
 inline Eigen::Vector2d rounded(const Eigen::Vector2d &place)
 {
    const double least = 1e-9 * place.cwiseAbs().maxCoeff();

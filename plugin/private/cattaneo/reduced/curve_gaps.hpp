@@ -11,9 +11,9 @@ namespace cattaneo
 /// to zero.
 struct CurveGaps
 {
-   Eigen::VectorXd moved;  ///< gaps between the outlines less gaps between the nodes' places
-   Eigen::VectorXd left;   ///< what curves would add that are not used, because lines are as
-                           ///< meshed or stay polygons
+   Eigen::VectorXd moved; ///< gaps between the outlines less gaps between the nodes' places
+   Eigen::VectorXd left; ///< the same for curves that are not used, because lines are as meshed
+                         ///< or stay polygons
    Eigen::VectorXd curved; ///< gaps between the outlines less gaps between the chords
 };
 

@@ -52,7 +52,7 @@ struct FacingLines
    double opposite(const FacingPart &part, double s) const;
 };
 
-/// @a what begins the messages about lines that do not fit.
+/// @a what: the beginning of messages about lines that do not fit.
 FacingLines facing(const ContactLine &first, const ContactLine &other, const std::string &what);
 
 } // namespace cattaneo

@@ -24,7 +24,7 @@ struct MetInterface
    std::string what; ///< begins messages about it
    Side slave, master;
    bool of_second = false; ///< the slave is Interface::second
-   /// In space its nodes, gaps and weights alone.
+   /// In space only its nodes, gaps and weights are set.
    Mortar mortar;
    std::vector<int> without_row; ///< nodes of the slave
    std::vector<int> facing = {}; ///< in space, of each contact node: the node of the master

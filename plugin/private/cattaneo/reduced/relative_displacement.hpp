@@ -23,13 +23,12 @@ struct ContactRow
    Eigen::Vector2d tangent{1, 0}; ///< of a line
    /// In space: rows are the tangents and the normal.
    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-   /// For each tangent; false: supports hold both the slave and the nodes that it faces along
-   /// it.
+   /// For each tangent; false: supports hold the slave and the nodes opposite along this
+   /// tangent.
    std::array<bool, 2> slides{true, true};
    std::vector<TraceShare> shares; ///< the slave's own among them
-   /// The nodes whose components, those along the tangents and the one across, relative
-   /// displacements determine: the slave, or the one node that faces it. See
-   /// choose_dependents().
+   /// The nodes whose components (along each tangent, and across) follow from relative
+   /// displacements: the slave, or the one node that faces it. See choose_dependents().
    std::array<NodeOfBody, 3> dependent{slave, slave, slave};
 
    /// The facing node if the slave is paired with just one node, with weight 1; else null.
@@ -42,7 +41,7 @@ bool holds(const CondensedBody &body, int node, int component);
 /** Chooses the nodes that relative displacements determine. If two nodes face only each other,
     either may be chosen: the one without a support, else the softer one, because subtraction
     from its stiffness loses fewer digits. If one of them is held in a component, the other is
-    determined there. A row along a tangent in which both are held does not slide. */
+    determined there. Along a tangent in which both are held, a row does not slide. */
 void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<ContactRow> &rows);
 
 /** The maps between contact displacements of bodies and relative displacements of contact

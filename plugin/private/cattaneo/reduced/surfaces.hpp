@@ -6,11 +6,11 @@
 namespace cattaneo
 {
 
-/// Which nodes of bodies rows of contact nodes join, an obstacle as body -1 among them.
+/// The groups of nodes that rows of contact nodes join; an obstacle counts as body -1.
 class JoinedNodes
 {
 public:
-   /// Joins two of them; false if they are joined already, by other rows.
+   /// Joins two nodes; false if other rows have joined them already.
    bool join(const NodeOfBody &one, const NodeOfBody &other)
    {
       const NodeOfBody a = root(one), b = root(other);
@@ -30,19 +30,19 @@ private:
    std::map<NodeOfBody, NodeOfBody> up_;
 };
 
-/// The rows of an interface of bodies in space, whose nodes match or that lies on an obstacle,
-/// and what is known of it in `met`. InputError if sides or pairing do not fit, or supports
-/// hold a normal component on both sides.
+/// The rows of an interface of bodies in space, whose nodes match or that lies on an obstacle.
+/// Fills in its data in `met`. InputError if sides or pairing do not fit, or supports hold a
+/// normal component on both sides.
 std::vector<ContactRow> rows_on_surfaces(const Interface &given,
                                          const std::vector<CondensedBody> &bodies,
                                          JoinedNodes &joined, MetInterface &met);
 
-/// InputError unless the rows of bodies in space determine each node once, and none that
-/// supports hold.
+/// InputError unless the rows of bodies in space determine each node at most once, and no node
+/// that supports hold.
 void require_dependents(const std::vector<CondensedBody> &bodies,
                         const std::vector<ContactRow> &rows);
 
-/// Of an interface in space, with the rows of its nodes.
+/// The report of an interface in space, with the rows of its nodes.
 InterfaceReport report_on_surfaces(const MetInterface &met,
                                    const std::vector<ContactRow> &rows);
 

@@ -35,7 +35,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
 /// Makes a reduced problem of the block, without gaps and friction, with `components` a node.
 void take(Block block, int components, ReducedProblem &problem);
 
-/// Index of each body's patterns in `all`. Appends those that are new.
+/// Index of each body's patterns in `all`. Appends new patterns to `all`.
 Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
                              std::vector<LoadPattern> &all);
 
@@ -43,7 +43,7 @@ Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
 Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int> &index,
                                Eigen::Index count);
 
-/// Motions of the bodies of a group together that nothing resists, as orthonormal columns in U.
+/// Motions of a group of bodies as one, which nothing resists, as orthonormal columns in U.
 Eigen::MatrixXd common_motions(const std::vector<CondensedBody> &bodies,
                                const std::vector<int> &group, const RelativeDisplacement &map);
 /// Free motions of all bodies, orthogonal to the common motions Y among them, as columns in U.
