@@ -321,7 +321,7 @@ void Shakedown::lower()
 void Shakedown::lower_apart(const LimitSettings &settings)
 {
    ResultTable &table =
-      study.table("lower_limits_apart", {{"apart", "nodes set apart"},
+      study.table("lower_limits_apart", {{"apart", "exempt nodes"},
                                          {"distance", "up to from an end", "%.4g"},
                                          {"load_factor", "λ"},
                                          {"share", "over λ2", "%.4f"}});
@@ -340,7 +340,7 @@ void Shakedown::lower_apart(const LimitSettings &settings)
       study.counters += of.counters;
       if (of.status == LimitStatus::stopped)
       {
-         stopped("the lower limits with nodes set apart were not found yet");
+         stopped("the lower limits with exempt nodes were not found yet");
       }
       if (of.kind != LowerLimitKind::apart) { continue; }
       if (table.json().empty()) { study.say("      " + of.message + ":"); }

@@ -25,7 +25,7 @@ bool stands_for_no_file(const std::string &file)
 fs::path target(const std::string &file)
 {
    fs::path path = file;
-   // Nobody makes so many, but they may run in a ring.
+   // So many links in a row can only be a ring.
    for (int links = 0; links < 40 && fs::is_symlink(path); ++links)
    {
       path = path.parent_path() / fs::read_symlink(path);
@@ -37,7 +37,8 @@ fs::path target(const std::string &file)
 
 void require_writable(const std::string &file)
 {
-   // Fails for a name too long for the system, a folder without permission, or a ring of links.
+   // Fails if the name is too long for the system, if the folder has no permission, or if links
+   // form a ring.
    std::error_code why_not;
    const fs::file_type type = fs::status(file, why_not).type();
    require(type != fs::file_type::none && type != fs::file_type::unknown, "cannot write file '",

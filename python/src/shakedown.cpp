@@ -250,7 +250,7 @@ void bind_limits(nb::module_ &m)
       },
       arg("problem"), arg("upper"), nb::kw_only(), arg("apart") = nb::none(),
       arg("settings") = settings, arg("members"),
-      "upper: the report of load_limit. apart: nodes that are set apart: in a contact that "
+      "upper: the report of load_limit. apart: exempt nodes. In a contact that "
       "stays closed, slip that goes on for ever below the value includes slip at one of them.");
 }
 

@@ -205,7 +205,7 @@ def test_lower_limit_but_for_the_corners_is_proven(run):
     got = run.line("shakedown -nodes 33 -find load -lower -starts 4 -cycles 60")
     apart = got["lower_limits_apart"]
     assert len(apart) >= 3
-    # The more is set apart, the more is proven of the rest.
+    # The more nodes are exempt, the more is proven of the rest.
     proven = [0] + [row["load_factor"] for row in apart]
     assert all(less < more for less, more in zip(proven, proven[1:])), proven
     assert proven[-1] <= got["load_limit"]

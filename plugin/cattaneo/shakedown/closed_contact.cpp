@@ -46,7 +46,7 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    const std::vector<Eigen::Index> kept = unknowns(contact.closed),
                                    freed = unknowns(contact.open);
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
-   // The forces {q; p} of each load with clamped nodes, one pattern in each column.
+   // The forces {q; p} of each load with the nodes clamped, one column for each pattern.
    Eigen::MatrixXd forces((c + 1) * n, patterns);
    Eigen::VectorXd sign(patterns); // of Fᵀ u in the conjugates of the loads
    for (Eigen::Index k = 0; k < patterns; ++k)

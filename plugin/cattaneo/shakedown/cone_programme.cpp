@@ -265,7 +265,7 @@ double bound_once_repaired(const ConeProgramme &programme, const ReducedProblem 
 
    Eigen::MatrixXd opening;
    Eigen::VectorXd imbalance;
-   double share = none; // of the largest imbalance in what is in balance
+   double share = none; // of the largest imbalance, relative to the terms that balance
    constexpr double tiny = std::numeric_limits<double>::min();
    constexpr int max_rounds = 30;
    for (int round = 0;; ++round)

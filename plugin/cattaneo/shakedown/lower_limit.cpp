@@ -217,7 +217,8 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    StuckForces lowest = loads;
    lowest.p0 = least.by_normal * loads.p0 + least.by_shear * loads.q0;
    lowest.p1 = least.by_normal * loads.p1 + least.by_shear * loads.q1;
-   // Nothing is asked of the nodes set apart: any force that they could ever carry is allowed.
+   // There is no condition on the exempt nodes: any force that they could ever carry is
+   // allowed.
    for (const Eigen::Index node : apart.empty() ? apart : chosen_nodes(reduced, apart))
    {
       lowest.p0.row(node).setConstant(loads.p0.cwiseAbs().sum());
@@ -262,7 +263,7 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    if (!apart.empty())
    {
       report.message = "below this load factor, slip that goes on for ever in a closed contact "
-                       "includes slip at a node set apart (proven)";
+                       "includes slip at an exempt node (proven)";
       return report;
    }
    report.message =

@@ -30,8 +30,8 @@ bool solved(FrictionStatus status)
 /// The slip, over the elastic slip, and the loss, over the scale of losses, that count as none.
 constexpr double nothing = 1e-9;
 
-/// The way of each node that bears at some time of a cycle, cycle by cycle. Its motion while it
-/// is open counts too, because the next cycle reverses it.
+/// The slip path of each node that carries a force at some time of a cycle, cycle by cycle. Its
+/// motion while it is open counts too, because the next cycle reverses it.
 class CycleWay
 {
 public:
@@ -62,7 +62,7 @@ public:
 
 private:
    Eigen::VectorXd v_, p_, now_, before_, most_p_;
-   double least_ = 0; // pressure of a node that bears
+   double least_ = 0; // force above which a node counts as loaded
    int cycle_ = 0;
 };
 
@@ -350,7 +350,7 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
    }
    if (std::isfinite(found.opens))
    {
-      // Slips that press some nodes and take as much from others as these have, and more.
+      // Slips that press some nodes, and take more pressure from others than these have.
       const Eigen::VectorXd pressure = pressed.cwiseMax(1e-6 * pressed.maxCoeff());
       for (int k = 0; k <= 4; ++k)
       {

@@ -101,7 +101,7 @@ struct Taken
    VectorXd depth, loss;
 };
 
-/// One computation in progress: its state, and the properties of a cycle there.
+/// One computation in progress: its state, and the data of a cycle at this state.
 struct Way
 {
    WearState state; ///< with the contact from which the march goes on
@@ -115,7 +115,7 @@ struct Way
    bool jumped = false;  ///< the last cycles were jumped over
 };
 
-/// Remarks on the way whose results are returned.
+/// Events of the computation whose results are returned.
 struct Noticed
 {
    VectorXd mark; ///< depth of a cycle, a while ago
@@ -139,7 +139,7 @@ struct Landing
 struct Kept
 {
    WearRecord record;
-   std::optional<WearState> state; ///< where the observer is to hear of it
+   std::optional<WearState> state; ///< if the observer is to be called with it
 };
 
 /// One wear() in progress.
@@ -364,7 +364,7 @@ bool WearMarch::march_one(Way &way, bool handed_out)
    return true;
 }
 
-/// A cycle more, on both ways. False if it was not found.
+/// Marches one more cycle in both computations. False if it was not found.
 bool WearMarch::march_on()
 {
    const double lost = fine_.state.dissipation.sum();
@@ -689,8 +689,8 @@ WearReport WearMarch::run()
    fine_.state.marched.reset();
    if (cycles_.begins(fine_.state.contact))
    {
-      // The state may stand before or after the opening part. Its wear counts, but it is no
-      // cycle.
+      // The march may begin before or after the opening part. Wear in this part counts, but the
+      // part is no cycle.
       ContactState contact = fine_.state.contact;
       const WearCycle opening = cycles_.opening(contact, fine_.state.depth);
       goes_on = !fails(opening);

@@ -151,7 +151,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
       if (result.loss <= 1e-8)
       {
          result.status = FrictionStatus::converged;
-         if (result.cut_off.empty()) // what overlaps would press, were it not worn off
+         if (result.cut_off.empty()) // pressures where overlaps would press without wear
          {
             ContactState unworn = result.contact;
             unworn.p = result.depth;

@@ -68,7 +68,7 @@ struct ConeSettings
    /// Stopping tolerance of the scaled optimality conditions.
    double tolerance = 1e-10;
    /// Every cone is narrowed by this share of the node's typical force, so that the solution
-   /// stays inside in spite of rounding and small violations of the solver.
+   /// stays inside in spite of rounding and small violations by the solver.
    double margin = 1e-10;
    /// Called in every iteration with its number; false ends it with the present point.
    std::function<bool(int)> goes_on;
@@ -104,9 +104,9 @@ struct ConeSolution
 
 ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
                    const ConeStart &start);
-/// The same of a programme with two tangential components and no bounds of r: interior points
-/// of its cones, whose equations are dense and as many as r has entries, however many vertices
-/// there are.
+/// The same for a programme with two tangential components and no bounds of r, by interior
+/// points of its cones. Their equations are dense, and as many as r has entries, however many
+/// vertices there are.
 ConeSolution solve_by_interior_points(const ConeProgramme &programme,
                                       const ConeSettings &settings, const ConeStart &start);
 
@@ -116,7 +116,7 @@ enum class Rounding
    ignored,
    against,  ///< largest, to the unsafe side: forces that are admissible even so are proven to
              ///< be
-   in_favour ///< to the safe side: forces that violate even so do it by more than round-off
+   in_favour ///< to the safe side: forces that violate even so violate by more than round-off
 };
 
 /// Contact forces at each load vertex (column) if the contact is stuck after a given residual

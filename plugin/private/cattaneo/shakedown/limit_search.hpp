@@ -33,7 +33,7 @@ protected:
 /// it ended as it should.
 std::string because(const std::string &message);
 
-/// The sentence on proven bounds that lie further apart than asked for.
+/// The sentence on proven bounds with a wider gap than requested.
 std::string not_closed(const std::string &message);
 
 /// Margin of the constant loads of a programme to its cones: the largest θ with f p + s0 - |q +

@@ -46,7 +46,7 @@ public:
    bool begins(const ContactState &contact) const { return contact.time < start_; }
    double start() const { return start_; }
    /// Marches the part before the cycle, or one cycle, with the wear so far. With `update` the
-   /// gap takes in the wear of each piece.
+   /// wear of each piece is added to the gap.
    WearCycle opening(ContactState &contact, const Eigen::VectorXd &depth);
    WearCycle march(ContactState &contact, const Eigen::VectorXd &depth, bool update);
    /// Marches cycles at this fixed depth until they repeat themselves: until `cycles` more of
