@@ -78,7 +78,7 @@ void bonded(Study &study, Disc &disc, const std::vector<double> &wanted)
    }
 }
 
-/// @param levels P/P0 to draw on the way: the zones stay
+/// @param levels P/P0 at which to draw: the zones are the same at each
 void load(Study &study, Disc &disc, Run &run, const std::vector<double> &levels)
 {
    if (!levels.empty())
@@ -96,7 +96,7 @@ void load(Study &study, Disc &disc, Run &run, const std::vector<double> &levels)
    run.leaves = false;
    run.to(disc.pressed());
    run.leaves = true;
-   // One of several states is shown before the study says so and ends.
+   // If the state is one of several, it is shown before the study says so and ends.
    if (!has_state(run.report)) { run.leave(); }
    const Extent found = disc.extent(run.state);
    study.title(

@@ -166,7 +166,7 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
                  by_torque ? wanted[k] : none},
                 found.errors(), found.json());
    }
-   // Under control of the torque there is nothing beyond its maximum.
+   // If the torque is prescribed, there is no state beyond its maximum.
    const bool rotates =
       problem.patterns[problem.pattern("twist")].control == Control::displacement;
    if (by_torque && rotates)

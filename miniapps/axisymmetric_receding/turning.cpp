@@ -57,7 +57,7 @@ void Turning::step(Turned &now, double by, const MarchObserver &observe)
 
 void Turning::on(Turned &now, Stop stop, double value, const MarchObserver &observe)
 {
-   // Not by steps of a round-off: their rates would be noise.
+   // No steps as small as round-off, because their rates would be noise.
    const double enough = (1 - 1e-9) * value;
    while (stop == Stop::torque ? now.torque < enough && !now.descended : now.at < enough)
    {

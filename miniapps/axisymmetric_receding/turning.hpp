@@ -8,7 +8,7 @@ namespace miniapp
 /// Torque that an axisymmetric contact transmits: Σ r q_θ, opposed to its slip.
 double torque(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state);
 
-/// How far a twist has gone.
+/// The point that a twist has reached.
 struct Turned
 {
    cattaneo::ContactState state;
@@ -41,9 +41,9 @@ public:
    /// Goes on until the torque or the multiplier has a value, or the torque has passed its
    /// maximum (which does not stop a search for a multiplier).
    void on(Turned &now, Stop stop, double value, const cattaneo::MarchObserver &observe = {});
-   /// Rotation that the twist does its work on.
+   /// The rotation on which the twist does work.
    double rotation(const cattaneo::ContactState &state) const;
-   /// The held loads and a twist.
+   /// The constant loads together with a twist.
    cattaneo::NamedLoads loads(double twist) const;
 
 private:

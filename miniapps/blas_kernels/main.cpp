@@ -2,8 +2,8 @@
 // --kernels.
 //
 //    blas_kernels           their name; empty with another BLAS
-//    blas_kernels --better  of others that are far faster on this processor; empty: there are
-//    none blas_kernels --check   their name; exit code 1 if they do not multiply small matrices
+// blas_kernels --better name of kernels that are far faster on this processor; empty: there are
+// none blas_kernels --check their name; exit code 1 if they do not multiply small matrices
 //    right
 //
 // It links nothing but LAPACK, and starts in milliseconds.

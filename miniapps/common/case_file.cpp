@@ -17,7 +17,7 @@ using json = nlohmann::ordered_json;
 namespace
 {
 
-/// "line 3, column 12: unexpected '}', must be …" of the sentence of the library.
+/// The library's sentence as "line 3, column 12: unexpected '}', must be …".
 std::string where_broken(std::string said)
 {
    for (const char *begin : {"] ", "parse error at "})
@@ -38,7 +38,7 @@ std::string where_broken(std::string said)
    }
    std::string must = said.substr(expected + std::string("; expected ").size());
    said.erase(expected);
-   // Of the text before it the last line is enough.
+   // The last line of the text before it is enough.
    const std::size_t read = said.find("; last read: '");
    if (read != std::string::npos)
    {
@@ -79,7 +79,7 @@ json read_case(const std::string &file, int version)
    const json said = keys.value("version", json());
    const std::string shown = said.is_structured() ? said.type_name() : said.dump();
    const int must = std::max(version, 1);
-   // A file without bodies is taken for one of version 1, which did not have to say so.
+   // A file without bodies counts as version 1, which did not have to name its version.
    require(version < 2 || (said != 1 && (!said.is_null() || keys.contains("bodies"))), where,
            " is of version 1, which is no longer read, key 'version' must be ", must,
            ": docs/contact.md says under 'Case files of version 1' how to write it anew");

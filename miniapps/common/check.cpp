@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Most marks that are drawn for a contact line or a load.
+/// Largest number of marks that are drawn for a contact line or a load.
 constexpr Index most_arrows = 60;
 
 /// A rectangle that holds points.
@@ -31,7 +31,7 @@ struct Frame
       high = high.cwiseMax(point);
    }
    double size() const { return (high - low).maxCoeff(); }
-   /// Widened to at least half as high as wide, or the other way round.
+   /// Widened so that the shorter side is at least half as long as the longer one.
    void round()
    {
       const Vector2d middle = 0.5 * (low + high),
@@ -48,7 +48,7 @@ struct AtNode
    std::array<double, 2> value{0, 0};
 };
 
-/// By nodes, of values by true dofs (torsion: of one component).
+/// Values by nodes, from values by true dofs (torsion: one component).
 std::vector<AtNode> at_nodes(const ElasticBody &body, const VectorXd &values)
 {
    std::vector<AtNode> all;
@@ -66,7 +66,7 @@ std::vector<AtNode> at_nodes(const ElasticBody &body, const VectorXd &values)
    return all;
 }
 
-/// The components that are held, not those that a load prescribes.
+/// The components that supports hold, without those that a load prescribes.
 std::vector<AtNode> supports(const ElasticBody &body)
 {
    VectorXd held = VectorXd::Zero(body.space().GetTrueVSize());
@@ -170,7 +170,7 @@ void list_loads(Study &study, const Scene &scene)
                            plane && force ? settled(moment, all * far) : none});
       }
    }
-   // Loads of a half-plane are forces far away and bulk stresses. They have no nodes.
+   // Loads of a half-plane are far forces and bulk stresses. They act on no nodes.
    for (std::size_t k = scene.bodies.size(); k < reduction.bodies.size(); ++k)
    {
       if (scene.bodies.empty()) { break; } // their elements are not known
@@ -240,7 +240,7 @@ void draw_normals(Panel &panel, const Reduction &reduction, double arrow)
          const Vector2d at = face.position.row(i), t = face.tangent.row(i), normal(-t[1], t[0]);
          if (i % stride == 0) { panel.item("normal", at, arrow * normal); }
          if (face.tied) { continue; }
-         // The point that the node faces: the matching node of the other body, else the point
+         // The point opposite the node: the matching node of the other body, else the point
          // across the gap.
          Vector2d partner = at - reduction.problem.gap[face.first + i] * normal;
          if (face.matching && reduction.bodies.size() == 2)
@@ -276,7 +276,7 @@ void draw_loads(Panel &panel, const ElasticBody &body, double arrow)
       {
          const Vector2d shown =
             Vector2d(nodes[i].value[0], nodes[i].value[1]) / largest * arrow;
-         panel.item(item, nodes[i].position - shown, shown); // ends where it acts
+         panel.item(item, nodes[i].position - shown, shown); // the tip is where the force acts
       }
    }
 }

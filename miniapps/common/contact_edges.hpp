@@ -7,8 +7,8 @@
 namespace miniapp
 {
 
-/// Prints what is known of an edge, under a name; `shift` is added to its position. The same
-/// for the results.
+/// Prints the data of an edge under a name, and adds them to the results; `shift` is added to
+/// its position.
 nlohmann::ordered_json report_edge(Study &study, const cattaneo::fretting::SolvedEdge &solved,
                                    const std::string &name, double shift = 0);
 

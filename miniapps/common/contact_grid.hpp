@@ -5,7 +5,7 @@
 namespace miniapp
 {
 
-/// Growth of the elements away from a contact: the chosen one. If that is 0, the largest one
+/// Growth of the elements away from a contact: the chosen value, or for 0 the largest one
 /// without loss of accuracy (docs/benchmarks.md): 1.5, and 1.25 for bilinear elements.
 double element_growth(double chosen, int order);
 /// InputError unless it is 0 or above 1 and at most 2.

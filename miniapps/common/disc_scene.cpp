@@ -108,7 +108,7 @@ Scene make_disc(const DiscOptions &options)
       twisting.add_displacement("twist", loaded, 0, 1.0);
       break;
    case Twist::rim:
-      // Above the contact, whose last node is at the rim and must be free.
+      // Only above the contact, because its last node is at the rim and must be free.
       twisting.add_displacement("twist", BoundaryPart({side}, 1, 0.4 * h, 1), 0, 1.0);
       break;
    case Twist::traction:
@@ -132,7 +132,7 @@ Scene make_disc(const DiscOptions &options)
 CriticalLoad::CriticalLoad(DiscOptions options) : options_(std::move(options))
 {
    const double b = options_.disc_radius, low = std::max(0.1 * b, b - 2.5);
-   // A cubic needs four patterns.
+   // The interpolation by a cubic needs four patterns.
    const int count = std::max(3, static_cast<int>(std::ceil((b - low) / 0.1)));
    options_.load_radii.clear();
    for (int k = 0; k <= count; ++k)

@@ -9,10 +9,10 @@
 namespace miniapp
 {
 
-/// What turns the disc about its axis.
+/// The part of the disc that is twisted about its axis.
 enum class Twist
 {
-   none,    ///< nothing: torsion is not built
+   none,    ///< no part: torsion is left out
    top,     ///< u_θ = φ r on the whole top
    loaded,  ///< the same on the top's nodes under the (first) load only
    rim,     ///< the same on the outer side
@@ -24,8 +24,8 @@ enum class Twist
     R, -R < z < 0 that is fixed on its side and bottom. Dead pressure p0 on r < a of the disc's
     top.
 
-    Units t = p0 = E = 1. Every load radius is a load pattern of its own, see radius_load(), on
-    one condensed pair: the end of the load need not be a mesh line. The twist is the pattern
+    Units t = p0 = E = 1. Every load radius has its own load pattern, see radius_load(), on one
+    condensed pair: the end of the load need not be a mesh line. The twist is the pattern
     "twist", of angle φ = 1 or torque 1. */
 struct DiscOptions
 {
@@ -37,7 +37,7 @@ struct DiscOptions
       0.02; ///< spacing of the contact nodes (rounded so that elements end at b), in t
    /// Growth of the elements away from the contact. Those of the disc are at most 0.4 (growth -
    /// 1) t high.
-   double growth = 0; ///< 0: the usual (element_growth())
+   double growth = 0; ///< 0: the default of element_growth()
    /// Grid lines of the contact from 0 to the disc's radius in place of `spacing`.
    std::vector<double> grid = {};
    double poisson = 0.3;

@@ -77,7 +77,7 @@ const PanelColumns &columns_of(Panel::Kind kind)
    return all[static_cast<std::size_t>(kind)];
 }
 
-/// The digits of a CSV file are enough to look at.
+/// The digits of a CSV file are enough for a picture.
 ordered_json rounded_to_draw(double x)
 {
    if (!std::isfinite(x)) { return nullptr; }
@@ -89,7 +89,7 @@ ordered_json rounded_to_draw(double x)
 void Panel::row(const std::vector<std::string> &words, const std::vector<double> &numbers)
 {
    const PanelColumns &columns = columns_of(kind_);
-   // Zones of one time lie side by side and have several states: they are all one part.
+   // Zones at one time lie side by side and have different states: together they are one part.
    const bool in_columns = kind_ == Kind::zones;
    const auto continues = [&](const ordered_json &part)
    {
@@ -150,7 +150,7 @@ std::string comments(const ordered_json &words)
 
 bool Panel::empty() const
 {
-   // Values of the thesis alone are nothing to draw.
+   // A panel with values of the thesis only is not drawn.
    return parts_.empty() ||
           (kind_ == Kind::zones &&
            std::all_of(parts_[0]["state"].begin(), parts_[0]["state"].end(),
@@ -302,7 +302,7 @@ void show(const std::string &run, bool passing, const std::string &option,
    const std::string command = "python3 " + argument(shipped("python/cattaneo_show")) + " " +
                                argument(run) + " " + option + " " + argument(file);
    std::cout << std::flush;
-   // Ctrl-C is for the study: a second one must not leave half a picture.
+   // Ctrl-C stops the study. A second one must not leave an incomplete picture.
    const int code = std::system(
       ("trap '' INT; command -v python3 >/dev/null && CATTANEO_PROGRAM=1 " + command).c_str());
    require(code == 0, "option ", option, ": '", file,
@@ -329,7 +329,7 @@ ordered_json ask_reader(const ordered_json &question)
 
 void become_reader(const std::vector<std::string> &words)
 {
-   // Before MPI ends: without Python the program goes on.
+   // Before MPI ends, because without Python the program goes on.
    if (!has_python()) { return; }
    std::vector<std::string> all = {"python3", shipped("python/cattaneo_show")};
    all.insert(all.end(), words.begin(), words.end());

@@ -11,7 +11,7 @@
 namespace miniapp
 {
 
-/// As much of a march as a picture can show, whatever its length.
+/// Largest number of rows of a march that a picture shows.
 constexpr std::size_t most_drawn = 4096;
 
 /** Data of one panel of a figure, in two forms. In JSON it has its words (kind, title, x, y, …)
@@ -28,7 +28,7 @@ public:
       lines, ///< curves of y over x
       zones, ///< states along the contact (y) against time or load (x)
       plan,  ///< a surface of revolution from above: rings in their states, arrows of slip
-      field, ///< a value over x and y
+      field, ///< a field over x and y
       scene  ///< bodies with their supports and loads
    };
    Panel(Kind kind, const std::string &name, const std::string &title,
@@ -41,7 +41,7 @@ public:
             const std::string &style = "line");
    void add(const std::string &series, const std::vector<double> &x,
             const std::vector<double> &y, const std::string &style = "line");
-   /// The next point of a curve.
+   /// Adds the next point of a curve.
    void point(const std::string &series, double x, double y, const std::string &style = "line");
    /// Pressure, and dashed shear over friction (if there is any), of `count` nodes from
    /// `first` on.
@@ -54,28 +54,29 @@ public:
       double time, const std::vector<cattaneo::Zone> &zones,
       const std::function<double(double)> &coordinate = [](double s) { return s; });
    void zone(double time, const std::string &state, double from, double to);
-   /// A value of the thesis on a zone diagram.
+   /// Adds a value of the thesis to a zone diagram.
    void mark(double time, double coordinate);
-   /// Rings of a plan; positions are radii.
+   /// Adds rings to a plan; positions are radii.
    void add(const std::vector<cattaneo::Zone> &rings);
-   /// An arrow of a plan, shown all around: "rate" (of slip) or "total" (slip), at a radius, by
-   /// its angle from the radial direction, radians.
+   /// Adds an arrow to a plan, shown at several angles around it: "rate" (of slip) or "total"
+   /// (slip), at a radius, by its angle from the radial direction, radians.
    void arrow(const std::string &kind, double radius, double angle);
-   /// An item of a scene: an edge of a body, an arrow, or a mark (without extent), by its kind.
+   /// Adds an item to a scene, by its kind: an edge of a body, an arrow, or a mark (without
+   /// extent).
    void item(const std::string &item, const Eigen::Vector2d &from,
              const Eigen::Vector2d &extent);
-   /// A value of a field.
+   /// Adds a value to a field.
    void add(const std::string &series, double x, double y, double value);
 
-   /// A word of the figure alone: "limits x", "0,1" (a side that is empty is left to the data);
-   /// "reversed", "x"; "scale", "loglog" or "semilogx" or "semilogy"; "shade", "0,1,slip zone",
-   /// which may be said several times.
+   /// A setting that only the figure uses: "limits x", "0,1" (if a side is empty, the data
+   /// decide); "reversed", "x"; "scale", "loglog" or "semilogx" or "semilogy"; "shade",
+   /// "0,1,slip zone", which may be given several times.
    void say(const std::string &key, const std::string &word);
    void limit(const char *axis, double lo, double hi);
 
    const std::string &name() const { return name_; }
    bool empty() const;
-   std::string csv() const; ///< nothing without points
+   std::string csv() const; ///< null without points
    /// Its name, its words and its parts.
    nlohmann::ordered_json json() const;
 
@@ -90,39 +91,38 @@ private:
 /// Words of a panel as comment lines of its CSV file.
 std::string comments(const nlohmann::ordered_json &words);
 
-/// Adds a word to those of a panel; a key that has one already then has a list of them.
+/// Adds a value to the words of a panel. If the key has a value already, it gets a list.
 void add_word(nlohmann::ordered_json &words, const std::string &key, const std::string &word);
 
-/// A CSV file, and what is drawn of it (null: nothing).
+/// A CSV file, and the panel that is drawn from it (null: none).
 struct Sheet
 {
    std::string name, csv;
    nlohmann::ordered_json panel;
 };
 
-/// Writes PREFIX_<sheet>.csv for every sheet; nothing for an empty prefix. InputError if there
-/// is no sheet or a file cannot be written.
+/// Writes PREFIX_<sheet>.csv for every sheet; does nothing for an empty prefix. InputError if
+/// there is no sheet or a file cannot be written.
 void write_csv(const std::vector<Sheet> &sheets, const std::string &prefix);
 
-/// Makes a file for others to read or overwrite, among those that are temporary.
+/// Makes a temporary file that other programs may read or overwrite.
 std::string temporary_file(const std::string &name, const std::string &text);
 
 /** Has the package cattaneo_show make a picture or a page ("--plot", "--html") of a run that
-   was written as JSON. InputError if it cannot, which says how it is made later; the JSON
-   stays.
-    @param passing whether the JSON is written for this alone, and goes with success */
+    was written as JSON. InputError if it cannot, which says how to make it later; the JSON
+    stays. @param passing the JSON was written only for this, and is removed if it succeeds */
 void show(const std::string &run, bool passing, const std::string &option,
           const std::string &file);
 
-/// What cattaneo_show answers to a question about references (compare.py); null if there is no
+/// The answer of cattaneo_show to a question about references (compare.py); null if there is no
 /// Python. InputError if it cannot answer.
 nlohmann::ordered_json ask_reader(const nlohmann::ordered_json &question);
 
-/// Becomes cattaneo_show with these words: returns only if there is no Python, with nothing
-/// changed.
+/// Replaces this program by cattaneo_show with these arguments. Returns only if there is no
+/// Python, with nothing changed.
 void become_reader(const std::vector<std::string> &words);
 
-/// Draws panels that belong to no study, those of a benchmark. Nothing for an empty name.
+/// Draws panels that belong to no study, but to a benchmark. Does nothing for an empty name.
 void draw(const std::vector<Sheet> &sheets, const std::string &picture);
 
 } // namespace miniapp

@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 namespace
 {
 
-/// Eight digits are enough to look at.
+/// Eight digits are enough for a picture.
 ordered_json rounded(double x)
 {
    if (!std::isfinite(x)) { return nullptr; }
@@ -60,7 +60,7 @@ Film::Film(const std::string &name, const ReducedProblem &problem, const Units &
                        {"word", std::string(problem.knows_loads() ? "" : "contact ") +
                                    (force ? "displacement" : "reaction")}});
    }
-   ordered_json interfaces = ordered_json::array(); // of nodes that follow one another
+   ordered_json interfaces = ordered_json::array(); // of the nodes of a chain
    for (const ContactChain &chain : problem.chains)
    {
       breaks.push_back(chain.first);

@@ -11,8 +11,8 @@
 namespace miniapp
 {
 
-/** The increments of a march, for the slider of the page (--html): all loads with what does
-    work with them, and tractions and zones of so many that a page can hold. */
+/** The increments of a march, for the slider of the page (--html): all loads with their
+    conjugates, and the tractions and zones of as many increments as a page can hold. */
 class Film
 {
 public:

@@ -12,7 +12,7 @@ namespace miniapp
 
 /** Two half-planes of the same material, a pad above (body 1) and a specimen below. They have
     no mesh: the specimen is held, the pad takes the loads. Or they are blocks, both free under
-    loads in equilibrium, of which body 2 is body 1 turned by 180°. Without a gap: that is set
+    loads in equilibrium, of which body 2 is body 1 turned by 180°. The gap is zero, and is set
     in the reduced problem. Any consistent units.
 
     Load patterns: "P", the normal force `load`; "Q", a shear of the same resultant, +x on the
@@ -29,7 +29,7 @@ struct HalfPlanes
    double load = 1.0; ///< per unit thickness
    bool bulk = false, bulk_pad = false;
    double growth =
-      0; ///< of the elements away from the contact; 0: the usual (element_growth())
+      0; ///< of the elements away from the contact; 0: the default of element_growth()
    /// Grid lines of the contact (symmetric, increasing) in place of `nodes` and `span`.
    std::vector<double> grid = {};
 
@@ -37,8 +37,8 @@ struct HalfPlanes
    void validate() const;
 };
 
-/// Square block of side 2 on a half-plane, which has no mesh, or is one that is held at its
-/// bottom; loads as above, the specimen's are its support's.
+/// Square block of side 2 on a half-plane without a mesh, or on a block that is held at its
+/// bottom. Loads as above; the support carries those of the specimen.
 struct BlockOnHalfPlane
 {
    int order = 2;

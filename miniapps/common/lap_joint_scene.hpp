@@ -28,8 +28,8 @@ struct LapJointOptions
    double lower_thickness = 1.0;
    int order = 2;
    double spacing = 0.0125; ///< of the contact nodes where the contact is expected, in t
-   /// Growth of the elements away from it. They are at most 0.4, 1 and 0.2 (growth - 1) t along
-   /// the overlap, beyond it and across.
+   /// Growth of the elements away from the contact. They are at most 0.4, 1 and 0.2 (growth -
+   /// 1) t long along the overlap, beyond it, and across.
    double growth = 1.25;
    /// Grid lines of the overlap from 0 to its end in place of `spacing`; its mirror image is
    /// the other half.

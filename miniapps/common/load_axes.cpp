@@ -10,7 +10,7 @@ using namespace cattaneo;
 namespace
 {
 
-/// " along x", " along -y" or " along (0.6, 0.8)"; nothing of a load without a direction.
+/// " along x", " along -y" or " along (0.6, 0.8)"; empty for a load without a direction.
 std::string along(const LoadSize &size)
 {
    const auto [x, y] = size.direction;

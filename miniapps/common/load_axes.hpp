@@ -15,7 +15,7 @@ struct LoadAxes
    std::string force, displacement; ///< labels of axes, with the units of the case
    /// Units of the size and of force over displacement, " [N]"; empty if not known.
    std::string unit, stiffness_unit;
-   bool forces = true; ///< is the multiplier that of forces?
+   bool forces = true; ///< does the multiplier scale forces?
    double size = 1;
 
    double force_of(double multiplier, double conjugate) const

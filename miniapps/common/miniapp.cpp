@@ -22,7 +22,7 @@ using cattaneo::InputError;
 namespace
 {
 
-/// What a user typed or a file held may stand in a message: it must stay one line of text.
+/// A message may quote what a user typed, or a file. It must remain one line of text.
 std::string one_line(std::string message)
 {
    for (char &c : message)
@@ -32,7 +32,8 @@ std::string one_line(std::string message)
    return message;
 }
 
-/// True if the other ranks come here too, within a second: most errors are seen by all alike.
+/// True if the other ranks come here too within a second, because most errors occur on all of
+/// them.
 bool all_fail()
 {
 #ifdef MFEM_USE_MPI
@@ -96,8 +97,8 @@ std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, [[maybe_unused]] int ord
 int run(const std::function<int()> &body)
 {
 #ifdef __GLIBC__
-   // Matrices come and go, and the system clears the pages of each anew unless they are kept: a
-   // tenth of the time with two thousand contact nodes.
+   // Memory of freed matrices is kept. Otherwise the system would clear the pages of each new
+   // matrix, a tenth of the time with two thousand contact nodes.
    mallopt(M_MMAP_MAX, 0);
    mallopt(M_TRIM_THRESHOLD, INT_MAX);
 #endif
@@ -113,7 +114,7 @@ int run(const std::function<int()> &body)
          if (writes()) { std::cerr << "error: " << one_line(why) << std::endl; }
          return 1;
       }
-      // In one piece: what other ranks write must not come between.
+      // Written in one piece, so that output of other ranks does not come between.
       std::cerr << "error: " + one_line(why) + "\n" << std::flush;
 #ifdef MFEM_USE_MPI
       MPI_Abort(MPI_COMM_WORLD, 1);
@@ -180,7 +181,7 @@ void write_json(nlohmann::ordered_json results, const std::string &file)
    if (file.empty() || !writes()) { return; }
    results["warnings"] = given;
    if (!noted.empty()) { results["notes"] = noted; }
-   // What pictures show has too many numbers for a line each.
+   // Data of pictures have too many numbers for a line each.
    const auto shown = results.find("shown");
    if (shown == results.end())
    {

@@ -27,24 +27,24 @@ struct Leave
 {
 };
 
-/// How many ranks run this.
+/// Number of ranks that run this program.
 int ranks();
 
-/// True on the rank that writes files.
+/// True on the rank that writes the files.
 bool writes();
 
-/// A mesh for bodies of this order to be made on, of the given one, which every rank must have.
-/// On several ranks an mfem::ParMesh if a body of two components is too large for a factor (see
-/// condensation()); smaller ones every rank has for itself, so that it does what one alone
-/// would do, to the same bits.
+/// The mesh on which bodies of this order are made, from the given one, which every rank must
+/// have. On several ranks it is an mfem::ParMesh if a body of two components is too large for a
+/// factor (see condensation()). A smaller mesh stays whole on every rank, so that each rank
+/// computes what a single one would, to the same bits.
 std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, int order);
 
-/// How bodies are to be condensed, as the options say.
+/// The settings of condensation, as the options give them.
 cattaneo::CondenseSettings &condensation();
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 
-/// Prints a warning, once however often it is given; the results of write_json() list them.
+/// Prints a warning, only the first time that it is given; write_json() lists all warnings.
 void warn(const std::string &text);
 /// The same, from parts of a sentence.
 template <class... Parts>
@@ -53,11 +53,11 @@ void warn(const Parts &...parts)
    warn(told(parts...));
 }
 
-/// Those that were given.
+/// The warnings that were given.
 const std::vector<std::string> &warnings();
 
-/// Prints what was done that the user may not expect, though it is right; the results of
-/// write_json() list it.
+/// Prints a note on something correct that the user may not expect; write_json() lists all
+/// notes.
 void note(const std::string &text);
 
 /// Writes results as JSON, whole or not at all, and with them the lists `warnings` and `notes`

@@ -93,7 +93,8 @@ nlohmann::ordered_json with_paths(nlohmann::ordered_json structure, const fs::pa
    return structure;
 }
 
-/// A structure with another value in the place NAME.KEY.KEY…: what it is as JSON, or a text.
+/// A structure with another value in the place NAME.KEY.KEY…: the value as JSON, or else as a
+/// text.
 std::string replaced_in(const std::string &structure, const std::string &by,
                         const std::string &key, const std::string &value)
 {
@@ -133,7 +134,7 @@ std::string replaced_in(const std::string &structure, const std::string &by,
    return all.dump();
 }
 
-/// Entry k of a text of entries is another value; with a load's name, its part LOAD=value.
+/// Replaces entry k in a text of entries; with a load's name, only its part LOAD=value.
 std::string replaced(const std::string &text, const std::string &separators,
                      const std::string &by, const std::string &key, const std::string &value)
 {
@@ -347,7 +348,7 @@ void Options::read_words()
 
 void Options::print_head() const
 {
-   // The head of a program's source says its purpose, its units, and how it is called.
+   // The head comment of a program's source has its purpose, its units, and sample runs.
    std::ifstream source(shipped("miniapps/" + program_ + ".cpp"));
    for (std::string line; std::getline(source, line) && line.rfind("//", 0) == 0;)
    {
@@ -502,7 +503,7 @@ void Options::parse()
       }
       catch (const InputError &error)
       {
-         // A user of a case has written a key.
+         // In a case file the user has written a key.
          const std::string &name = option.names.name, as_option = "option --" + name;
          const std::string said = error.what();
          const bool typed =
@@ -590,7 +591,7 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
               " is of one run, a sweep has many");
       if (!given.option->is_written()) { values[name] = given.text; }
    }
-   // What was changed stands for itself, a key may be swept.
+   // The changed places are shown; a key may be swept.
    for (const std::string &name : changed_) { values[name] = named(name)->text(); }
    for (const char *name : {"set", "sweep-results", "amplitudes"}) { values.erase(name); }
    values["sweep"] = "none"; // a case file may have one
@@ -650,12 +651,12 @@ const Options::Option &Options::of_case(const std::string &key, const std::strin
    throw InputError(where + "unknown key '" + key + "', must be one of " + listed(known));
 }
 
-/// Of a case file, as it would stand on the command line.
+/// A value of a case file, as it would stand on the command line.
 std::string Options::Option::from_json(const json &x, const std::string &where) const
 {
    const auto expect = [&](bool condition, const char *allowed)
    {
-      // Nothing nested is shown: it may be too deep to be written.
+      // Nested values are not shown, because they may be too deep to be written.
       const bool nested =
          std::any_of(x.begin(), x.end(), [](const json &v) { return v.is_structured(); });
       require(condition, where, " is ",

@@ -12,7 +12,7 @@
 namespace miniapp
 {
 
-/// What a number must be, and the words that say so: "must be positive".
+/// A condition for a number, and the words for it: "must be positive".
 struct Check
 {
    std::function<bool(double)> holds;
@@ -25,9 +25,9 @@ Check between(double low, double high);        ///< neither bound
 Check above_up_to(double low, double high);    ///< without the lower bound
 Check at_least_below(double low, double high); ///< without the upper bound
 Check within(double low, double high);         ///< both bounds
-Check none_or_above(double low);               ///< 0, or above the bound
+Check none_or_above(double low);               ///< 0, or a value above the bound
 
-/// What a text option is, here and in a case file.
+/// The kind of a text option, on the command line and in a case file.
 enum class Text
 {
    word,
@@ -37,7 +37,7 @@ enum class Text
    output,     ///< a file that is written
    prefix,     ///< the beginning of the names of files that are written
    folder,     ///< a folder for files, made with those above it if there is none
-   picture,    ///< a file of matplotlib's: png, pdf or svg
+   picture,    ///< a picture by matplotlib: png, pdf or svg
    page        ///< an html file
 };
 
@@ -45,22 +45,22 @@ enum class Text
 /// mesh.
 extern const char *const domain_help;
 
-/** Options of a program, each declared once, with its check. Numbers that are none, or too
-    large, are refused with the name of their option, and so are options without a value. Files
-    to be read and written are known as such, so that a run does not end, after all its work,
-    with nowhere to write to, or writes over what it reads.
+/** Options of a program, each declared once, with its check. A text that is no number, a number
+    that is too large, and an option without a value are refused with the name of the option.
+    Files to be read and written are known as such, so that a run does not find at its end that
+    it cannot write, and does not overwrite a file that it reads.
 
     --case FILE.json gives options as well, by their names without dashes; the command line
-    overrides it. Files that are written are named on the command line only. Comments are
-    allowed in it, as in C++. */
+    overrides it. Files that are written are named on the command line only. The case file may
+    have comments, as in C++. */
 class Options
 {
 public:
    /// @param program whose head comment -h prints first
    Options(const std::string &program, int argc, char *argv[]);
 
-   /// The one name of an option, typed as --name or -name, and the other side of a flag, which
-   /// is --no-name unless it is given.
+   /// The name of an option, typed as --name or -name, and the name that turns a flag off,
+   /// which is --no-name unless another is given.
    struct Names
    {
       Names(const char *name) : Names(std::string(name)) {}
@@ -76,48 +76,50 @@ public:
    /// @param check of a number, or of each in a list
    void add(Value value, const Names &names, const char *help, const Check &check = any);
    void add(std::string *value, const Names &names, const char *help, Text kind);
-   /// One of some words.
+   /// An option whose value is one of some words.
    void add(std::string *value, const Names &names, const char *help,
             const std::vector<std::string> &choices);
 
-   /// Heading in -h of the options that are added from now on.
+   /// The heading in -h above the options that are added from now on.
    void group(const std::string &heading) { group_ = heading; }
-   /// Case files must name this version of their form. Without a call they need not name any.
+   /// From now on case files must name this version of their form. Without this call they need
+   /// not name any.
    void require_version(int version) { version_ = version; }
    /// Adds --set, which gives a place in an option another value: KEY=VALUE, with a key as in
    /// command(). It comes after the case file and all other options.
    void add_set();
-   /// Names what is no part of a case: where results go, or which of them are shown.
+   /// Names options that are no part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
-   /// Options that had other names, which are refused with the new ones: from and to.
+   /// Options that were renamed, as pairs of old and new name. The old names are refused with
+   /// the new ones in the message.
    void renamed(const std::map<std::string, std::string> &names) { renamed_ = names; }
 
    /// Sets all options and echoes those that were typed (with --verbose all); -h prints them
-   /// all and leaves the program (Leave). InputError for what is no option, and for a value or
+   /// all and leaves the program (Leave). InputError for an unknown option, and for a value or
    /// a file that cannot be used.
    void parse();
 
-   /** The words of a command that runs the same with some values changed, and without what it
-       writes; a key is an option's name, NAME.k for entry k (from 0) of a list or of
+   /** The words of a command that runs the same study with some values changed, and without its
+       output files; a key is an option's name, NAME.k for entry k (from 0) of a list or of
        statements, or NAME.k.LOAD for a load's multiplier at point k of a history. To be called
        after parse(). In a structure a key is NAME.KEY.KEY…, with numbers (from 0) for entries
-      of arrays. InputError if a key is none or an option does not allow its value. */
+       of arrays. InputError if a key is none or an option does not allow its value. */
    std::vector<std::string>
    command(const std::vector<std::pair<std::string, std::string>> &changes) const;
 
-   /// The value of an option; nothing of one that there is not.
+   /// The value of an option; empty if there is no such option.
    std::string text(const std::string &name) const;
-   /// Does the command line or the case file say it?
+   /// Does the command line or the case file give it?
    bool says(const std::string &name) const { return said_.count(name) > 0; }
-   /// What it is called in an error: "key 'cycles'" of a case, otherwise "option --cycles".
+   /// Its name in an error: "key 'cycles'" if a case gives it, otherwise "option --cycles".
    std::string called(const std::string &name) const;
 
-   /// InputError if one of these is said in a run that does not use it. @param why as in "goes
+   /// InputError if one of these is given in a run that does not use it. @param why as in "goes
    /// with --map"
    void only_if(bool used, const std::vector<std::string> &names, const std::string &why) const;
 
-   /// What was parsed, by names, lists as text.
+   /// The parsed values by names, lists as text.
    const nlohmann::ordered_json &values() const { return values_; }
 
 private:
@@ -142,17 +144,17 @@ private:
          return in_cases && name != "sweep" && name != "sweep-results" && name != "set";
       }
       std::string text() const;               ///< its value
-      nlohmann::ordered_json as_json() const; ///< the same, a list as text
+      nlohmann::ordered_json as_json() const; ///< as above, a list as text
       /// A value of a case file as it would stand on the command line.
       std::string from_json(const nlohmann::ordered_json &x, const std::string &where) const;
       /// @param as what the option is called in an error
       void set(const std::string &as, const std::string &text) const;
-      /// A text of its value with another one in the place `key`, which `by` says.
+      /// A text of its value with another value in the place `key`, which option `by` gives.
       std::string changed(const std::string &now, const std::string &by, const std::string &key,
                           const std::string &value) const;
       void validate() const; ///< its value
    };
-   /// What the command line says.
+   /// The options of the command line.
    struct Given
    {
       const Option *option;
@@ -161,7 +163,7 @@ private:
 
    /// The option of a name, or null.
    const Option *named(const std::string &name) const;
-   /// InputError if an option that is none had this name before, which begins with `what`.
+   /// InputError, which begins with `what`, if this is the old name of an option.
    void refuse_old(const std::string &what, const std::string &name) const;
    /// The option that a word of the command line is, or null.
    const Option *find(const std::string &word) const;
@@ -172,7 +174,7 @@ private:
    void check_files() const;
    void read(const std::string &file);
    const Option &of_case(const std::string &key, const std::string &where) const;
-   /// The option in which a key is a place. @param by the option that says the key
+   /// The option in which a key is a place. @param by the option that gives the key
    const Option &changeable(const std::string &by, const std::string &key) const;
    /// What --set says.
    void change();
@@ -188,8 +190,8 @@ private:
    nlohmann::ordered_json values_;
 };
 
-/// KEY and VALUE of a statement KEY=VALUE of option `by`; InputError if it is none, which shows
-/// the example.
+/// KEY and VALUE of a statement KEY=VALUE of option `by`; InputError, with the example, if it
+/// is no such statement.
 std::pair<std::string, std::string>
 assignment(const std::string &by, const std::string &statement, const std::string &example);
 

@@ -62,16 +62,16 @@ struct Circle
    Eigen::Vector2d centre{0, 0};
    double way = 1; ///< 1: the run goes round it counterclockwise, -1: clockwise
 
-   /// Of a place on it, from the x axis counterclockwise, in degrees; NaN: not known.
+   /// The angle of a place on it, from the x axis counterclockwise, in degrees; NaN: not known.
    double angle(const Eigen::Vector2d &place) const
    {
       return std::atan2(place[1] - centre[1], place[0] - centre[0]) * 180 / std::acos(-1.0);
    }
-   /// Of a second place, which is passed after one at the angle `from`.
+   /// The angle of a second place, which is passed after the one at the angle `from`.
    double angle_after(double from, const Eigen::Vector2d &place) const
    {
       const double turn = std::fmod(way * (angle(place) - from) + 720, 360);
-      // The whole circle is passed, and not nothing of it.
+      // Equal angles mean the whole circle, not an empty arc.
       return from + way * (turn > 1e-9 ? turn : 360);
    }
 };
@@ -101,8 +101,8 @@ std::optional<Circle> circle_of(const ReducedProblem &problem, const ContactChai
       const Eigen::RowVector2d a = x.row(i - 1) - centre, b = x.row(i) - centre;
       turned += std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
    }
-   // A run that turns by 10 degrees or more, and is off its circle by no more than a thousandth
-   // of what it is off a straight line by.
+   // Accepts a run that turns by 10 degrees or more, if its distance from the circle is at most
+   // a thousandth of its distance from a straight line.
    const double off = radius * (1 - std::cos(std::min(std::abs(turned), 3.0) / 2));
    if (!std::isfinite(radius) || std::abs(turned) < std::acos(-1.0) / 18 ||
        (radii.array() - radius).abs().maxCoeff() > 1e-3 * off)
@@ -136,11 +136,12 @@ std::vector<std::string> interfaces(const ReducedProblem &problem)
    return names;
 }
 
-/// The zones of a march, of a long one those of every second increment, every fourth, ….
+/// The zones of a march; in a long march only those of every second increment, every fourth, ….
 class ZonesInTime
 {
 public:
-   /// Those of an interface that the march before has left, up to where it is taken up.
+   /// The zones of an interface in the file of the march before, up to the time at which this
+   /// march continues.
    void read(const std::string &interface, const std::string &file, double until)
    {
       for (const ordered_json &row : read_rows(file))
@@ -175,7 +176,7 @@ public:
       }
    }
    bool empty() const { return drawn_.empty(); }
-   /// One panel an interface.
+   /// One panel for each interface.
    void show(const std::map<std::string, Panel *> &panels) const
    {
       for (const auto &[time, stretches] : drawn_)
@@ -315,8 +316,8 @@ void OwnHistory::begin(const ReducedProblem &problem)
 namespace
 {
 
-/// Of bodies that are tied alone, which obey no law: the loads of the history, one after the
-/// other. A cycle comes again as it is.
+/// For bodies that are only tied, without a law of contact: the loads of the history, one after
+/// the other. All cycles are the same.
 MarchReport followed(const ReducedProblem &problem, const LoadHistory &history,
                      ContactState &state, const MarchSettings &settings,
                      const MarchObserver &note)
@@ -470,7 +471,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    if (!early.empty()) { report.message += "; " + early; }
    check_energies({report.energy_imbalance, state.dissipation});
    report.increments.assign(last_increments.begin(), last_increments.end());
-   // A march that had not been cut would have ended there.
+   // A march that was not cut would have ended there.
    const bool idle = goes_on && report.counters.increments == 0;
    if (period > 0 && (idle || report.steady_period == period))
    {
@@ -489,7 +490,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    add_outcome(problem, report, study_.results);
    if (last_frame != state.time || report.increments.empty())
    {
-      // A march that is to be gone on with has no frame there: the state is saved.
+      // A march that will be continued has no frame at its end, because its state is saved.
       if (nodes && !(saver && report.status == FrictionStatus::stopped)) { nodes->add(state); }
       observe(state, true);
    }
@@ -533,7 +534,7 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                              {"to_y"},
                              {"from_angle", round ? "from" : "", "%.3f"},
                              {"to_angle", round ? "to (degrees)" : "", "%.3f"}});
-   // Many zones take a line an interface, without their errors.
+   // If there are many zones, each interface has one line, without errors.
    const bool brief = !study_.verbose() && zones.size() > 8;
    table.quiet(brief);
    if (brief) { study_.say("   zones by arc length" + study_.units.of(0, 1) + ":"); }
@@ -610,7 +611,7 @@ std::vector<Zone> zones_to_axis(const ReducedProblem &problem, std::vector<Zone>
       for (const int end : {0, 1})
       {
          const Eigen::Index last = end ? chain.first + chain.nodes - 1 : chain.first;
-         // On a plane of symmetry the node is there, and held.
+         // On a plane of symmetry the node exists, and is held.
          const bool at_axis = (end ? zone.last : zone.first) == last &&
                               chain.ends[end] == LineEnd::symmetry &&
                               std::count(problem.held.begin(), problem.held.end(), last) == 0;

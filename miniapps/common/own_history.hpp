@@ -12,28 +12,29 @@
 namespace miniapp
 {
 
-/** A march along a load history of a user's own: its options, from rest or from a saved state,
-    the files that it writes as it goes, and what is said of it and of its last state. */
+/** A march along the load history of a case, from rest or from a saved state: its options, the
+    files that it writes during the march, and the report on it and on its last state. */
 class OwnHistory
 {
 public:
-   /// Adds the options. Times of frames that are wanted are named on the command line only.
+   /// Adds the options. The times of frames are given on the command line only.
    explicit OwnHistory(Study &study);
-   /// After parsing. InputError naming the option.
+   /// To be called after parsing. InputError naming the option.
    void check_options();
 
-   /// The history of this problem, and the state that it starts from. InputError naming the
-   /// option.
+   /// Reads the history for this problem, and the state from which it starts. InputError naming
+   /// the option.
    void begin(const cattaneo::ReducedProblem &problem);
    /// InputError if the march does not reach one of these times of an option.
    void check_times(const std::string &option, const std::vector<double> &times) const;
 
-   /// Called with every state that is reached; `frame`: one of those that are wanted.
+   /// Called with every state that is reached; `frame`: the state is one of the requested
+   /// frames.
    using Observer = std::function<void(const cattaneo::ContactState &, bool frame)>;
    /// Marches and writes: with --csv PREFIX_history.csv, and PREFIX_nodes.csv of the frames
-   /// (from a saved state it goes on with those of the march before); with --save-state the
-   /// state, every few seconds. Where there is no equilibrium the exit
-   /// code of the study says so, and it goes on. InputError if energies overflow.
+   /// (from a saved state it continues the files of the march before); with --save-state the
+   /// state, every few seconds. If there is no equilibrium, the exit code of the study says so,
+   /// and the study goes on. InputError if energies overflow.
    void march(const cattaneo::ReducedProblem &problem, const Observer &observe);
 
    /// The history, after begin().
@@ -44,9 +45,9 @@ public:
    /// Reports the march: cycles, losses, residuals, the changes of an exact path.
    void report_march(const cattaneo::ReducedProblem &problem);
 
-   /// Is the problem one about an axis? Zones at the axis begin there.
+   /// Is the problem axisymmetric? Zones at the axis then begin there.
    bool about_axis = false;
-   /// Called with a state that is saved, for what is to be kept with it.
+   /// Called with a state before it is saved, to add values that are kept with it.
    std::function<void(cattaneo::ContactState &)> keep;
    /// Bolts that the history tightens; must outlive it. Null: there are none.
    const cattaneo::BoltedJoint *bolts = nullptr;
@@ -67,8 +68,8 @@ private:
    cattaneo::LoadHistory history_;
 };
 
-/// Zones that begin or end at the axis of a problem about one, whose node there is none of the
-/// contact, with their ends there.
+/// In an axisymmetric problem: zones next to the axis, extended to the axis, where there is no
+/// contact node.
 std::vector<cattaneo::Zone> zones_to_axis(const cattaneo::ReducedProblem &problem,
                                           std::vector<cattaneo::Zone> zones);
 

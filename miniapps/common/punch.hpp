@@ -27,14 +27,14 @@ struct PunchOptions
    double plane_poisson = none; ///< of the half-plane; NaN: that of the block
    double domain = 0; ///< half-width and depth of the half-plane's block, in a; 0: no block
    /// Growth of the elements away from the contact, the largest of which are 0.8 (growth - 1)
-   /// a. 0: the usual one (element_growth()), but 1.1 and 0.04 a where the order is 1.
+   /// a. 0: the default of element_growth(), but 1.1 and 0.04 a for order 1.
    double growth = 0;
    /// Grid lines of the contact from -1 to 1 in place of `nodes` and `grading`.
    std::vector<double> grid = {};
    /// Refines the mesh of a body (0 or 1) before it is made; both alike along the contact.
    std::function<void(mfem::Mesh &, int)> refine = {};
 
-   /// True if what the half-plane stands on is too far away to be felt.
+   /// True if the support of the half-plane is too far away to affect the contact.
    bool unbounded() const { return domain == 0 || domain >= 1e3; }
    /// InputError naming the option, its value and what is allowed.
    void validate() const;

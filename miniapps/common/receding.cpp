@@ -116,8 +116,8 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
    result.p = tractions(problem, load.p);
    result.q = tractions(problem, load.q);
    const VectorXd &x = problem.arc_length;
-   // The last few nodes at the corner never converge; what they spoil must stay small, so that
-   // the fit starts well away from them.
+   // The last few nodes at the corner never converge. The fit starts well away from them, so
+   // that their error remains small.
    const Index skip = 8;
    Index first = skip, last = skip;
    while (first < x.size() && x[first] < 0.005) { ++first; }
@@ -129,7 +129,7 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
       williams_strengths(x.segment(first, count), both.middleRows(first, count));
    result.corner_ratio = result.strengths(0, 1) / result.strengths(0, 0);
 
-   // At the corner itself the exact ratio stands for the nodes.
+   // At the corner itself the exact ratio replaces that of the nodes.
    result.adhesion_friction = williams_ratio[0];
    result.lowest_pressure = std::numeric_limits<double>::infinity();
    for (Index i = skip; i < x.size(); ++i)
@@ -166,7 +166,7 @@ double PointHistory::interpolated(const VectorXd &of) const
 
 void PointHistory::note(double now, const VectorXd &slip_, NodeState status)
 {
-   // Some time during the step: its middle.
+   // The change occurs during the step; its middle is taken.
    const double before = level.back(), change = 0.5 * (now + before);
    level.push_back(now);
    slip.push_back(interpolated(slip_));

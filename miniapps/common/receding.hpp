@@ -15,7 +15,7 @@ namespace miniapp
     length, -domain < y < 0, u_y = 0 at its bottom. A pressure p0 acts on the strip's top for x
     > n t. u_x = 0 at x = length (of both).
 
-    Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n is a load pattern of its own, see
+    Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n has its own load pattern, see
     overhang_load(): the end of the load need not be a mesh line, so that one condensed pair
     serves all n. */
 struct RecedingOptions
@@ -43,7 +43,7 @@ struct RecedingOptions
 
 Scene make_receding(const RecedingOptions &options);
 
-/** Bonded tractions along the contact, as a monolith has them: what the clamped contact nodes
+/** Tractions along the bonded contact, as in a monolith: those that the clamped contact nodes
     carry. */
 struct BondedTractions
 {
@@ -65,7 +65,7 @@ std::string overhang_load(double overhang);
 
 BondedTractions bonded_tractions(const cattaneo::ReducedProblem &problem, double overhang);
 
-/// History of one point of the contact line while a load is taken back from full to less.
+/// History of one point of the contact line while a load is reduced from its full value.
 struct PointHistory
 {
    /// @param positions of the nodes
@@ -78,7 +78,7 @@ struct PointHistory
    std::vector<double> level = {0, 1}, slip = {0};
    double slips_from = std::numeric_limits<double>::quiet_NaN(),
           separates_at = std::numeric_limits<double>::quiet_NaN();
-   double step = 0; ///< half of the largest step of the level: what is not known of the two
+   double step = 0; ///< half of the largest step of the level, the uncertainty of both
 
 private:
    double interpolated(const Eigen::VectorXd &of) const;

@@ -22,7 +22,7 @@ Extent extent(const ReducedProblem &problem, const ContactState &state, bool sti
    }
    const std::size_t count = result.zones.size(), open = sticks_first ? count - 1 : 0,
                      held = count - 1 - open;
-   // The border that faces the other end.
+   // The border on the side of the other end.
    const auto inner = [&](std::size_t k) -> const ZoneBorder &
    { return k == 0 ? result.zones[k].to : result.zones[k].from; };
    if (!closed(result.zones[open].state))
@@ -34,7 +34,7 @@ Extent extent(const ReducedProblem &problem, const ContactState &state, bool sti
    {
       result.stick = inner(held).position;
       result.stick_error = inner(held).error;
-      // Slip within the last spacing before the end of contact does not show.
+      // Slip within the last spacing before the end of contact is not visible.
       const Eigen::Index last =
          sticks_first ? result.zones[held].last + 1 : result.zones[held].first;
       if (!slips(result.zones[sticks_first ? 1 : count - 2].state))
@@ -80,11 +80,12 @@ void map_loads(Study &study, const ResultTable &table, ReducedProblem problem,
    {
       set_friction(problem, friction);
       Run run(study, problem);
-      run.leaves = false; // one state without an answer is a row, and the others are computed
+      run.leaves =
+         false; // a state without a solution is a row, and the others are still computed
       for (std::size_t k = 0; k < wanted.size(); ++k)
       {
          run.state = ContactState::virgin(problem);
-         // The states of the nodes at the friction before are where the search starts.
+         // The search starts from the node states at the previous coefficient of friction.
          if (!guesses[k].empty()) { run.state.status = guesses[k]; }
          run.to({{load(wanted[k]), 1}});
          row(friction, wanted[k], run);
@@ -164,15 +165,15 @@ UnloadingPanels unload(Study &study, Run &run, const Receding &receding,
 namespace
 {
 
-/// Is nothing left of what the first cycle lost, or but the round-off of friction and slip?
+/// Has the loss of the first cycle vanished, apart from the round-off of friction and slip?
 bool dies_out(const std::vector<double> &losses, const ContactState &loaded)
 {
    const double rubbed = loaded.q.cwiseAbs().dot(loaded.v.cwiseAbs());
    return losses.back() <= std::max(1e-9 * losses.front(), 1e-12 * rubbed);
 }
 
-/// Factor by which the last cycle lost less than the one a period before; 1 where that is no
-/// share of itself, and the loss has settled.
+/// Loss of the last cycle over that of the cycle one period before; 1 if they differ only by
+/// round-off, so that the loss has settled.
 double falls(const std::vector<double> &losses, int period)
 {
    constexpr double settled = 1e-3;
@@ -243,8 +244,8 @@ void cycle_the_load(Study &study, Run &run, const Receding &receding,
          }
       };
       march_on(cycles);
-      // The slip is called steady once it changes by little of all there is, but a loss that
-      // still falls by a share of itself in each cycle ends at none.
+      // Slip counts as steady once its change is small compared with all slip. A loss that
+      // still falls by a constant factor in each cycle goes to zero nevertheless.
       const int period = std::max(1, run.report.steady_period);
       while (static_cast<int>(all.size()) < cycles && !dies_out(all, loaded) &&
              falls(all, period) < 1)

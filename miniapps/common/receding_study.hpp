@@ -15,7 +15,7 @@ namespace miniapp
 struct Extent
 {
    double separation = none, stick = none, separation_error = 0, stick_error = 0;
-   std::vector<cattaneo::Zone> zones; ///< shifted as the two are
+   std::vector<cattaneo::Zone> zones; ///< shifted like both of these
 
    /// The errors and the zones.
    nlohmann::ordered_json json() const
@@ -39,27 +39,26 @@ Extent extent(const cattaneo::ReducedProblem &problem, const cattaneo::ContactSt
 struct Receding
 {
    std::string load;                ///< the pattern
-   Column level, separation, stick; ///< multiplier of the load, and what it does
-   std::string coordinate;          ///< what is shown along the contact, …
-   double shift = 0;                ///< … and from the arc length to it
+   Column level, separation, stick; ///< multiplier of the load, and its meaning
+   std::string coordinate;          ///< the coordinate along the contact in pictures, …
+   double shift = 0;                ///< … and its difference from the arc length
    std::string loss;                ///< name of the loss in a cycle
    std::function<Extent(const cattaneo::ContactState &)> extent;
 };
 
-/// Does the state of a march have all of the load: the only one, or one of several?
+/// Did the march reach the full load, with a state that is the only one or one of several?
 bool has_state(const cattaneo::MarchReport &report);
 
 /// Loads by name from rest, at several coefficients of friction: one condensed pair serves all.
-/// States that have no answer, or several, end no map: they are rows, and what they came to is
-/// said at its end.
-/// @param load its name, of each of `wanted`
-/// @param row takes friction, which of `wanted`, and the contact
+/// A state without a solution, or with several, does not end a map: it is a row, and its
+/// outcome is printed at the end. @param load name of the load of each of `wanted` @param row
+/// takes the friction, the member of `wanted`, and the contact
 void map_loads(Study &study, const ResultTable &table, cattaneo::ReducedProblem problem,
                const std::vector<double> &wanted, const std::vector<double> &frictions,
                const std::function<std::string(double)> &load,
                const std::function<void(double, double, const Run &)> &row);
 
-/// The load taken back in steps of 1/steps that shrink with it, to `lowest`.
+/// The load is reduced to `lowest`, in steps of 1/steps that shrink with it.
 struct Unloading
 {
    int steps;
@@ -77,23 +76,22 @@ struct UnloadingPanels
    Panel &tractions, &zones;
 };
 
-/// Takes back the load from the loaded state that the run stands in (thesis 5.3.2). @param note
-/// takes every level and its state
+/// Reduces the load from the loaded state of the run (thesis 5.3.2). @param note takes every
+/// level and its state
 UnloadingPanels
 unload(Study &study, Run &run, const Receding &receding, const Unloading &wanted,
        const std::function<void(double, const cattaneo::ContactState &)> &note = {});
 
-/** Marches cycles of the load between 1 and each of `lowest`, from the loaded state that the
-    run stands in (thesis 8.2, item 5): the loss in each, whether it dies out, and of the first
+/** Marches cycles of the load between 1 and each of `lowest`, from the loaded state of the run
+    (thesis 8.2, item 5). Reports the loss of each cycle, whether it dies out, and for the first
     `lowest` the zones and tractions of two cycles. Nodes open and close in a cycle, so that no
-    theorem of shakedown applies: what is said was marched, from this start, and holds for no
-    other. */
+    theorem of shakedown applies: the result holds for the march from this start only. */
 void cycle_the_load(Study &study, Run &run, const Receding &receding,
                     const std::vector<double> &lowest, int cycles);
 
-/** Value of a parameter at which a figure changes its sign, found among ever closer values,
-    each time in the first interval from `from` on. NaN if there is no change. @param figures of
-    parameters */
+/** Value of a parameter at which a quantity changes its sign. The first interval with a change,
+    from `from` on, is divided again and again. NaN if there is no change. @param figures the
+    quantity as a function of the parameter */
 double changing(double from, double to,
                 const std::function<std::vector<double>(const std::vector<double> &)> &figures);
 

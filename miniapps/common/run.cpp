@@ -90,7 +90,7 @@ const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &o
    study_.counters += report.counters;
    if (report.status != FrictionStatus::converged)
    {
-      // The study has one clock, that of its history.
+      // Time goes on through all marches of the study, as in its history file.
       report.event_time += started;
       if (report.not_unique) { report.not_unique->time += started; }
    }
@@ -166,7 +166,8 @@ void report_exact_path(Study &study, const ReducedProblem &problem,
                         {"from", name(change.from)},
                         {"to", name(change.to)}});
    }
-   // How each row of the march was found, and the node at whose change of state it ends.
+   // The method that found each row of the march, and the node at whose change of state the row
+   // ends.
    ordered_json &steps = study.results["steps"] = ordered_json::array();
    for (const IncrementRecord &record : report.increments)
    {
@@ -185,8 +186,8 @@ double product(const Loop &loop)
    return loop.force_range() * loop.displacement_range();
 }
 
-/// The energy that a loop's is to be measured by: that of all loads of its cycle, and of its
-/// own with all that it moves at any time.
+/// The scale of a loop's energy: the energies of all loads in its cycle, and that of its own
+/// load.
 double energy_about(const ReducedProblem &problem, const MarchReport &report,
                     const CycleRecord &cycle, std::size_t load)
 {
@@ -203,7 +204,7 @@ double energy_about(const ReducedProblem &problem, const MarchReport &report,
    return size;
 }
 
-/// The loads that varied in any whole cycle: the others have no loop.
+/// The loads that varied in any whole cycle. The others have no loop.
 std::set<std::size_t> varied_loads(const MarchReport &report)
 {
    std::set<std::size_t> varied;
@@ -217,8 +218,8 @@ std::set<std::size_t> varied_loads(const MarchReport &report)
    return varied;
 }
 
-/// A work in a cycle without what is none: round-off of energies of this size and, where the
-/// cycle loses nothing, what its increments miss of the path (CycleRecord::normal_work).
+/// The work of a load in a cycle. It is zero if it is round-off of energies of this size or, in
+/// a cycle without loss, if it is the error of the increments (CycleRecord::normal_work).
 double without_error(double work, const CycleRecord &cycle, double size)
 {
    const bool loses = settled(cycle.dissipation, size) != 0;
@@ -283,7 +284,7 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
    ResultTable &cycles = study.table("cycles", columns);
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
    std::set<std::string> still;
-   // The first cycle, and the two in which it may be seen whether they are steady.
+   // The first cycle, and two cycles that show whether they are steady.
    const auto whole = std::count_if(report.cycles.begin(), report.cycles.end(),
                                     [](const CycleRecord &cycle) { return cycle.whole; });
    const auto count = static_cast<long>(before.size()) + whole;
@@ -355,7 +356,7 @@ LoopCurve loop_curve(const ReducedProblem &problem, const MarchReport &report, s
    double least = 0, most = 0; // of its multiplier
    for (const IncrementRecord &record : report.increments)
    {
-      // The last state before the cycles is where they begin.
+      // The cycles begin at the last state before them.
       if (record.cycle == 0) { made = {}; }
       const double multiplier = record.multipliers[k], conjugate = record.conjugates[k];
       least = made.force.empty() ? multiplier : std::min(least, multiplier);
@@ -366,7 +367,7 @@ LoopCurve loop_curve(const ReducedProblem &problem, const MarchReport &report, s
    return least == most ? LoopCurve() : made;
 }
 
-/// Does a load move what it acts on in the last cycle that is known? Otherwise its loop is
+/// Does the place where a load acts move in the last known cycle? Otherwise the loop is
 /// round-off.
 bool moves(const ReducedProblem &problem, const MarchReport &report, std::size_t load)
 {
@@ -377,7 +378,7 @@ bool moves(const ReducedProblem &problem, const MarchReport &report, std::size_t
    return true;
 }
 
-/// A label for all curves: their own if it is the same, otherwise a word for all.
+/// A label for all curves: their common label if they have one, otherwise a general word.
 std::string label_of_all(const std::vector<std::string> &labels, const std::string &otherwise)
 {
    const bool same = std::all_of(labels.begin(), labels.end(),
@@ -407,7 +408,7 @@ void add_loops(Study &study, const ReducedProblem &problem, const MarchReport &r
          straight && (pattern.size.kind == "force" || pattern.size.kind == "opposite forces" ||
                       pattern.size.kind == "displacement" || pattern.size.kind == "bolt");
    }
-   // Loads of a study without sizes have the words that they always had.
+   // Loads of a study without sizes keep their own words.
    Panel &panel = study.lines(
       "loops",
       known ? "Force over displacement of each load" : "Loads over their displacements",
@@ -478,7 +479,7 @@ std::string event_text(double time, const NamedLoads &loads)
    std::vector<std::string> words;
    for (const auto &[name, value] : loads)
    {
-      // Names of studies' loads hold numbers of their own.
+      // Names of loads in studies contain numbers.
       const char *quote = name.find(' ') == std::string::npos ? "" : "'";
       words.push_back(told(quote, name, quote, " = ", value));
    }
@@ -494,7 +495,7 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
    };
    if (report.fallbacks > 0)
    {
-      // Of a body that is free to move nothing proves that an increment has one answer.
+      // If a body is free to move, nothing proves that an increment has only one solution.
       const bool several = problem.rigid_motions.cols() > 0 && problem.friction.maxCoeff() > 0;
       say(report.fallbacks,
           " increments where there is no exact path: ", report.fallback_reason,

@@ -11,8 +11,8 @@
 namespace miniapp
 {
 
-/// The bodies of a study and what they are reduced to. The bodies must live as long as the
-/// reduction is used for fields.
+/// The bodies of a study and their reduction. The bodies must live as long as the reduction is
+/// used for fields.
 struct Scene
 {
    std::vector<std::unique_ptr<mfem::Mesh>> meshes;
@@ -24,18 +24,18 @@ struct Scene
    cattaneo::ReducedProblem &problem() { return reduction.problem; }
    const cattaneo::ReducedProblem &problem() const { return reduction.problem; }
 
-   /// A body on a mesh of its own, distributed as all bodies are (distribute()); warns if it
+   /// Makes a body on its own mesh, distributed like all bodies (distribute()); warns if it
    /// locks.
    cattaneo::ElasticBody &add(mfem::Mesh mesh, int order, const cattaneo::Material &material,
                               cattaneo::Formulation formulation = cattaneo::Formulation::plane);
-   /// The same of one material, or one for each element attribute.
+   /// The same with one material, or one for each element attribute.
    cattaneo::ElasticBody &add(mfem::Mesh mesh, int order,
                               const std::vector<cattaneo::Material> &materials,
                               cattaneo::Formulation formulation = cattaneo::Formulation::plane);
-   /// The torsion of all bodies, to be condensed with them.
+   /// Makes the torsion bodies of all bodies, to be condensed with them.
    void add_torsion(int order, const cattaneo::Material &material);
-   /// Series of it for ParaView in a folder; the scene must outlive them.
-   /// `half_plane`: what the last body is, if it has no mesh.
+   /// Series of the fields for ParaView in a folder; the scene must outlive them. `half_plane`:
+   /// the last body, if it has no mesh.
    cattaneo::ReductionFields fields(const std::string &folder,
                                     const cattaneo::HalfPlane *half_plane = nullptr);
 };
@@ -43,15 +43,15 @@ struct Scene
 /// Material in plane strain with E' = E/(1-ν²) = 1.
 cattaneo::Material unit_material(double poisson);
 
-/// A condensed body on another one, whose line's nodes match.
+/// Two condensed bodies whose nodes match.
 cattaneo::Reduction stacked(cattaneo::CondensedBody above, const cattaneo::ElasticBody &below,
                             const cattaneo::ContactLine &line);
 
 /// The mesh turned by 180° about the origin.
 mfem::Mesh half_turn(mfem::Mesh mesh);
 
-/// A line of text if linear elements will be much too stiff: order 1 and a Poisson's ratio of
-/// 0.49 or more, but for plane stress. True if so.
+/// Prints a line if linear elements will be much too stiff: order 1 and a Poisson's ratio of
+/// 0.49 or more, except in plane stress. True if so.
 bool warn_of_locking(int order, const cattaneo::Material &material);
 
 } // namespace miniapp

@@ -14,7 +14,7 @@ public:
    /// To be called after parse(). InputError if they contradict each other or --friction.
    void check() const;
    bool given() const { return !forward.empty(); }
-   /// Gives the problem the law. InputError if it is none.
+   /// Gives the problem the law. InputError if the law is not valid.
    void set(cattaneo::ReducedProblem &problem) const;
 
 private:

@@ -79,7 +79,7 @@ void Study::parse()
    options_.parse();
    if (const std::string amplitudes = options_.text("amplitudes"); !amplitudes.empty())
    {
-      // "0.2 … 1" are nine values from one to the other.
+      // "0.2 … 1" means nine values in equal steps.
       std::string values = amplitudes;
       for (const char *const dots : {"…", "..."})
       {
@@ -94,7 +94,8 @@ void Study::parse()
       sweep_ += (sweep_.empty() ? "amplitude=" : "; amplitude=") + values;
    }
    const bool sweeps = sweep_ != "none" && !sweep_.empty();
-   // A point of a sweep has none itself; its case file may still name what the sweep shows.
+   // A single run of a sweep has no sweep itself, but its case file may still name the results
+   // that the sweep shows.
    options_.only_if(options_.says("sweep"), {"sweep-results"}, "goes with --sweep");
    cattaneo::require(!check_ || save_.empty(),
                      "option --save cannot be used with --check, which computes nothing");
@@ -148,7 +149,7 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
 
 void Study::begins(const std::string &path, bool goes_on)
 {
-   // Devices, pipes and links are not ours to be removed.
+   // Devices, pipes and links are not removed.
    const auto type = fs::symlink_status(path).type();
    const bool ours =
       type == fs::file_type::not_found ||
@@ -194,7 +195,7 @@ std::string Study::history_file()
 void Study::write_frames(const std::string &folder, Scene &scene,
                          const std::vector<cattaneo::ContactState> &states)
 {
-   counters -= scene.reduction.counters; // what the frames cost is added
+   counters -= scene.reduction.counters; // the cost of the frames is added
    cattaneo::ReductionFields fields = scene.fields(folder);
    for (const cattaneo::ContactState &state : states) { fields.write(state); }
    counters += scene.reduction.counters;
@@ -300,7 +301,8 @@ void Study::compare(const std::string &name, double exact, Allowed allowed, doub
 
 bool Study::is_compared(const std::string &key)
 {
-   // A text of 60 kB is searched once for each key; the reader knows what its entries say.
+   // A text of 60 kB is searched once for each key. The package that reads it understands its
+   // entries.
    const auto [known, is_new] = compared_.try_emplace(key, false);
    if (is_new) { known->second = references_.find('"' + key + '"') != std::string::npos; }
    return known->second;
@@ -375,7 +377,7 @@ void Study::finish()
    results["blas_kernels"] = kernels.name;
    if (verbose_) { say_more(kernels); }
    const std::vector<Sheet> all = sheets();
-   // Its results come before what only shows them.
+   // The results are written before pictures of them.
    ordered_json run = results;
    run["shown"] = shown(all);
    write_long_frames(run["shown"]["marches"]);
@@ -457,7 +459,7 @@ ordered_json Study::shown(const std::vector<Sheet> &sheets) const
 void Study::show_results(const ordered_json &run) const
 {
    if (!draws()) { return; }
-   // A study whose loads no contact bears may end before there is anything to be drawn.
+   // A study without an equilibrium may end before there is anything to draw.
    const bool drawn = !run["shown"]["panels"].empty();
    cattaneo::require(drawn || code != 0 || plot_.empty(),
                      "option --plot: this run has nothing to draw");
@@ -469,7 +471,7 @@ void Study::show_results(const ordered_json &run) const
    if (!picture && html_.empty()) { return; }
    const std::string file = !passing ? json_ : (picture ? plot_ : html_) + ".json";
    if (passing) { write_json(run, file); }
-   // The page first: it can be made where no picture can.
+   // The page first, because it can be made even where a picture cannot.
    if (!html_.empty()) { show(file, passing && !picture, "--html", html_); }
    if (picture) { show(file, passing, "--plot", plot_); }
 }
@@ -495,7 +497,7 @@ int Study::run(const std::string &name, int argc, char *argv[],
          }
          catch (const cattaneo::WriteError &)
          {
-            study.begun_.paths.clear(); // hours may be in them
+            study.begun_.paths.clear(); // they may have taken hours
             throw;
          }
          study.finish();

@@ -30,7 +30,7 @@ struct Point
    std::vector<std::string> values, words;
 };
 
-/// A number that is a word, or nothing.
+/// The number that a word is, or nothing.
 ordered_json as_number(const std::string &word)
 {
    char *end = nullptr;
@@ -38,7 +38,7 @@ ordered_json as_number(const std::string &word)
    return word.empty() || *end != 0 ? ordered_json(word) : ordered_json(value);
 }
 
-/// "0.01:0.05:9" are nine numbers from one to the other; all else is what it is.
+/// "0.01:0.05:9" means nine numbers in equal steps; any other text is one value.
 std::vector<std::string> spread(const std::string &word)
 {
    const std::vector<std::string> parts = split(word, ":");
@@ -135,7 +135,7 @@ ordered_json numbers_of(const std::vector<std::string> &words)
 void run_sweep(const Study &study, const std::string &name, const std::string &statements)
 {
    require(ranks() == 1, "option --sweep must run on one rank, this runs on ", ranks());
-   // Keys and values that no option allows are refused before anything runs.
+   // Keys and values that no option allows are refused before the first run.
    const std::vector<SweptKey> keys = read_keys(statements);
    ordered_json points = ordered_json::array(), swept = ordered_json::array();
    for (const Point &point : make_points(study.options(), keys))

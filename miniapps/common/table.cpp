@@ -42,7 +42,7 @@ std::string cell(const ordered_json &value, const Column &column)
    return text(column.format.c_str(), value.get<double>());
 }
 
-/// As it stands in a CSV file; what is no single value does not.
+/// A value in a CSV file; anything that is no single value is left out.
 std::string field(const ordered_json &value)
 {
    if (value.is_string()) { return cattaneo::csv_field(value.get<std::string>()); }
@@ -53,7 +53,7 @@ std::string field(const ordered_json &value)
    return value.is_primitive() && !value.is_null() ? value.dump() : "";
 }
 
-/// Of a CSV file, with a line of keys above the rows.
+/// The text of a CSV file, with a line of keys above the rows.
 std::string lines_of(const std::vector<std::string> &keys, const ordered_json &rows)
 {
    std::string result;
@@ -73,7 +73,7 @@ std::string lines_of(const std::vector<std::string> &keys, const ordered_json &r
    return result;
 }
 
-/// The table whose headings stand above what is printed next.
+/// The table whose headings were printed last.
 const ResultTable *&on_screen()
 {
    static const ResultTable *table = nullptr;

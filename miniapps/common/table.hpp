@@ -7,35 +7,35 @@
 namespace miniapp
 {
 
-/// JSON of a text, in which comments of C++ may be allowed, or the library's own error.
-/// Compiled once: a parser takes long.
+/// Parses a JSON text, in which C++ comments may be allowed; the library's own error if it is
+/// not JSON. Compiled once, because a parser takes long to compile.
 nlohmann::ordered_json parsed(const std::string &text, bool comments = false);
 
-/// A sum without what is round-off of parts of this size.
+/// A sum, or 0 if it is round-off of parts of this size.
 double settled(double sum, double size);
 
-/// A column of a table: its key in JSON and CSV, what stands above it on the screen, and how a
-/// number is written there. Without a heading it is not printed, without a key nothing else.
+/// A column of a table: its key in JSON and CSV, its heading on the screen, and the format of
+/// its numbers there. Without a heading it is not printed; without a key it is only printed.
 struct Column
 {
    std::string key, heading = "", format = "%.4f";
 };
 
-/** Rows that are stated once: printed, aligned, as they come; in JSON a list of objects with
-    the columns' keys; a CSV file with one column each; and, if asked for, a panel of the
-    figure. */
+/** Rows that are stated once. They are printed, aligned, as they come. In JSON they are a list
+    of objects with the columns' keys. They also make a CSV file and, if requested, a panel of
+    the figure. */
 class ResultTable
 {
 public:
    ResultTable(const std::string &name, const std::vector<Column> &columns);
 
    /// Values in the order of the columns: numbers (not finite: "-", null in JSON), words, zones
-   /// (to_json()), or whatever else is not printed. `more` goes to JSON alone.
+   /// (to_json()), or anything else, which is not printed. `more` goes only to JSON.
    const nlohmann::ordered_json &row(const std::vector<nlohmann::ordered_json> &values,
                                      const nlohmann::ordered_json &more = {});
-   /// Whether the rows that follow are left out on the screen; all else has them.
+   /// Are the following rows left out on the screen? All other outputs have them.
    void quiet(bool yes) { quiet_ = yes; }
-   /// Prints the headings, if they do not stand there.
+   /// Prints the headings, unless they were printed last.
    void print_headings();
 
    /** Draws columns over another one: `label`s of the axes, one curve for each of `y` (its key
@@ -48,17 +48,18 @@ public:
    ResultTable &draw(const std::string &title, const std::string &x, const std::string &x_label,
                      const std::vector<Curve> &y, const std::string &y_label,
                      const Curve &by = {});
-   /// Values of the thesis, marked in the figure.
+   /// Marks values of the thesis in the figure.
    ResultTable &mark(double x, double y);
-   /// A stretch of x with a word in it.
+   /// Shades a stretch of x, with a word in it.
    ResultTable &shade(double from, double to, const std::string &word);
-   /// How it is drawn, whose rows are those of the results of its name; null if it is not.
+   /// The description of its panel, whose data are the rows in the results; null if it is not
+   /// drawn.
    nlohmann::ordered_json panel() const;
 
    const std::string &name() const { return name_; }
    const nlohmann::ordered_json &json() const { return rows_; }
    std::string csv() const; ///< nothing without rows
-   /// A row of read_rows() in the order of the columns.
+   /// Adds a row of read_rows(), in the order of the columns.
    std::vector<nlohmann::ordered_json> values(const nlohmann::ordered_json &row) const;
    /// Its headings and rows as they are printed.
    nlohmann::ordered_json printed() const;
@@ -72,11 +73,11 @@ private:
    bool quiet_ = false;
 };
 
-/// Of a list of objects: a column for each number and word in them, "k_n.value" of those
-/// within, "notes.0" of lists.
+/// The CSV text of a list of objects: a column for each number and word in them, "k_n.value"
+/// for nested ones, "notes.0" for lists.
 std::string csv_of(const nlohmann::ordered_json &rows);
 
-/// Rows of what ResultTable::csv() made, by the keys of its columns; none without the file.
+/// Rows of a file of ResultTable::csv(), by the keys of its columns; none without the file.
 std::vector<nlohmann::ordered_json> read_rows(const std::string &file);
 
 } // namespace miniapp

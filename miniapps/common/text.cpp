@@ -19,7 +19,7 @@ std::string error_text(double error)
 {
    if (!(error > 0) || !std::isfinite(error)) { return text("%g", error); }
    const double unit = std::pow(10.0, std::floor(std::log10(error)) - 1);
-   // What is a whole number of units but for round-off is not rounded up.
+   // A whole number of units, apart from round-off, is not rounded up.
    return text("%.2g", std::ceil(error / unit * (1 - 1e-12)) * unit);
 }
 

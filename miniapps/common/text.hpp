@@ -14,14 +14,14 @@ using cattaneo::split;
 using cattaneo::split_unquoted;
 using cattaneo::unquoted;
 
-/// A name with a number so exact that no two numbers share one: "f = 0.5".
+/// A name with a number, so exact that different numbers have different names: "f = 0.5".
 std::string exact_text(const std::string &words, double value);
 
-/// An error as it is printed beside its value: two digits, the last one rounded up, since it is
-/// a bound.
+/// The text of an error that is printed beside its value: two digits, the last one rounded up,
+/// because it is a bound.
 std::string error_text(double error);
 
-/// As printf() would write it.
+/// The text that printf() would write.
 template <class... Values>
 std::string text(const char *format, Values... values)
 {
@@ -30,7 +30,7 @@ std::string text(const char *format, Values... values)
    return result;
 }
 
-/// Parts of a sentence as a stream would write them.
+/// A sentence from parts, as a stream would write them.
 template <class... Parts>
 std::string told(const Parts &...parts)
 {
@@ -41,7 +41,7 @@ std::string told(const Parts &...parts)
 
 /// Number of characters of UTF-8 text, which has more bytes.
 std::size_t characters(const std::string &text);
-/// With spaces behind it, or before it, up to a width counted in characters: text is UTF-8.
+/// The text with spaces behind it, or before it, up to a width counted in characters (UTF-8).
 std::string padded(const std::string &text, std::size_t width);
 std::string right(const std::string &text, std::size_t width);
 

@@ -7,7 +7,7 @@
 namespace miniapp
 {
 
-/** Two equal bodies of revolution that stand for half-spaces and meet with a gap r²/(2 R), E
+/** Two equal bodies of revolution in place of half-spaces, with a gap r²/(2 R) between them, E
     = 1. Load patterns, motions of the far boundary of the upper one: "approach" (down) and
     "twist" (about the axis). */
 struct TwistedBodies

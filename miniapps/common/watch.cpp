@@ -24,7 +24,8 @@ extern "C" void interrupted(int)
    std::signal(SIGINT, SIG_DFL);
 }
 
-/// What the line is of: the works that are under way, the innermost last, and how far it is.
+/// Content of the line: the computations in progress, the innermost last, and the share of it
+/// that is done.
 struct ShownProgress
 {
    std::mutex mutex;
