@@ -168,7 +168,10 @@ void contact(Study &study)
            "option --paraview writes displacements, which on a half-plane are relative to a "
            "depth: ",
            joint.bodies.back().source.called("half-plane.depth"), " must give it");
-   if (!own.known_elements) { own.scene.bodies.clear(); } // of the others nothing is shown
+   if (!own.known_elements)
+   {
+      own.scene.bodies.clear();
+   } // bodies without elements are not shown
    ReducedProblem &problem = own.scene.problem();
    require(!problem.patterns.empty(), "there is no load: key 'load' of a body must name one");
    require(options.edges.empty() || (joint.faces.size() == 1 && own.known_elements), edges,
@@ -194,7 +197,7 @@ void contact(Study &study)
    }
    study.condensed(own.scene);
    study.value("condensation_error_estimate", own.accuracy);
-   // Of bodies that are tied alone nothing can open or slip: there is no contact node.
+   // If bodies are only tied, nothing can open or slip: there is no contact node.
    const bool touches = problem.nodes() > 0;
    require(touches || !own.bolted,
            "all interfaces are tied, and bolts have the key 'preload', which is for joints "
@@ -241,8 +244,8 @@ void contact(Study &study)
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
    }
    Sketch sketch(study, own.scene);
-   // Pressures and openings at the largest pressure of all, and the largest pressure of each
-   // node.
+   // Pressures and openings in the state with the largest pressure, and the largest pressure of
+   // each node.
    Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), away = pressed,
                    most = pressed;
    const Counters &spent = own.scene.reduction.counters;
@@ -263,7 +266,7 @@ void contact(Study &study)
                     }
                     most = most.cwiseMax(reached.p);
                     if (!fields || !frame) { return; }
-                    study.counters -= spent; // what the frame costs is added
+                    study.counters -= spent; // the cost of the frame is added
                     fields->write(reached);
                     study.counters += spent;
                     ++frames;
@@ -279,7 +282,7 @@ void contact(Study &study)
          warn(said);
       }
       const ChordalError chords = warn_of_chords(own.scene.reduction, pressed, away);
-      // Less is round-off of sides that are straight.
+      // Smaller values are round-off of straight sides.
       if (chords.at_a_node > 1e-6 && std::isfinite(chords.at_a_node))
       {
          study.value("chords_peak_pressure_change_estimate", chords.of_peak);

@@ -49,7 +49,7 @@ double uniform_profile(double x, double P)
    return P / 4 * (part(1 + x) + part(1 - x));
 }
 
-/// The best of what is found from all starts, with a table of them if there are several.
+/// The best design from all starts, with a table of the starts if there are several.
 DesignReport search(Study &study, const DesignProblem &problem, const VectorXd &start,
                     int starts, DesignSettings settings)
 {

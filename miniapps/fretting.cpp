@@ -50,11 +50,12 @@ const std::map<std::string, Criterion> criteria_by_name = {
    {"range", Criterion::range},
    {"half-range", Criterion::half_range}};
 
-/// Criteria on critical planes, where the mesh and the half-plane know the averaged stresses.
+/// Criteria on critical planes, where mesh and half-plane resolve the averaged stresses.
 void judge_planes(Study &study, const Pad &pad, const PadContact &closed_form,
                   const SolvedPad &solved, double depth, const PlaneWeights &weights)
 {
-   // The edge of the contact lies anywhere in its element: two coarser meshes, at other places.
+   // The edge of the contact lies anywhere in its element, so two coarser meshes have it at
+   // other places.
    std::vector<SolvedPad> coarser;
    for (const int eighths : {4, 5})
    {
@@ -198,8 +199,8 @@ void assess_pad(Study &study)
    if (pad.kind == "fe")
    {
       solved = solve(study, pad, contact);
-      // Nearer to an edge than a spacing the mesh has neither the tractions nor the peak of the
-      // stress, and deeper than the contact is wide there is nothing left of them.
+      // Within a spacing of an edge the mesh resolves neither the tractions nor the peak of the
+      // stress. At depths beyond the width of the contact these stresses vanish.
       require(std::isnan(depth) || (depth >= solved->spacing && depth <= solved->half_width),
               "--averaging-depth is ", depth,
               " mm, must be from the spacing of the contact nodes, ", solved->spacing,

@@ -1,8 +1,8 @@
 //  heated_block: contact in a few lines added to a program of your own (MFEM's style, as ex2)
 //
 //  The right half of a block 2L wide and h high is held at the top and grows toward a rigid
-//  plane at a distance g as its temperature rises by ΔT. Everything of the body is the
-//  program's own: mesh, H1 space, bilinear form, coefficients, thermal load and stresses.
+// plane at a distance g as its temperature rises by ΔT. All of the body belongs to the program:
+// mesh, H1 space, bilinear form, coefficients, thermal load and stresses.
 //  Cattaneo takes the matrix, the forces and the held true dofs, and finds the contact. Without
 //  friction the pressure is uniform in plane strain,
 //
@@ -143,7 +143,8 @@ int main(int argc, char *argv[])
                       << pressure.maxCoeff() << ", without friction " << expected << std::endl;
          }
          else { std::cout << "the block does not reach the plane" << std::endl; }
-         // If the answer is not unique, the report has the load from which on, and the node.
+         // If the solution is not unique, the report has the load from which on it is not, and
+         // the node.
          if (report.status != cattaneo::FrictionStatus::converged)
          {
             std::cout << "from heat = " << report.event_multipliers[problem.pattern("heat")]

@@ -83,7 +83,7 @@ void hertz(Study &study)
    const VectorXd x = problem.position.col(0);
    problem.gap = x.array().square() / (2 * radius);
    study.reduced(scene);
-   // Over p0 and in b: √(1 - x²) within a half-width, and nothing beyond.
+   // Over p0, with x in b: √(1 - x²) within the contact, and zero beyond.
    const auto ellipse = [b](double half, double s)
    { return std::abs(s) < half ? std::sqrt(half * half - s * s) / b : 0.0; };
 
@@ -134,7 +134,7 @@ void hertz(Study &study)
       run.to({{"Q", Q * friction}});
       const Zone stick = stick_zone(problem, run.state);
       const double c = half_width(stick) / b;
-      // For monotonic loading alone. Reversed loading has no closed form here.
+      // Only for monotonic loading. There is no closed form for reversed loading here.
       const double exact_c = k < one_way ? std::sqrt(std::max(0.0, 1 - std::abs(Q))) : none;
       // Shear +Q acts on body 1 above: the force of the contact on it is -q.
       const Deviation off =
@@ -146,7 +146,8 @@ void hertz(Study &study)
                    tractions(problem, run.state.q) / (-friction * p0));
       study.row(levels, {Q, c, exact_c, k < one_way ? off.largest : none});
       study.results["stick_half_width"] = c;
-      // A closed form has no spread: the mesh's share is the error of the read-out.
+      // A closed form has no spread. The allowed difference by the mesh is the error of the
+      // position.
       if (k < one_way && !on_block && nodes == 101 && span == 1.67 &&
           (domain == 0 || domain >= 1e3))
       {

@@ -113,7 +113,7 @@ void single(Study &study, Joint &joint)
    study.value("a", a, "contact a/t", a_error);
    study.value("c_first", c, "stick in the first loading c/t", c_error);
    study.value("c_over_a", c / a, "over the contact c/a", (c_error + c / a * a_error) / a);
-   // A result that is not steady has another name, also for programs that read it.
+   // A result that is not steady gets another name, so that programs that read it notice.
    const bool steady = o.report.steady_cycle > 0;
    study.value(steady ? "c_steady" : "c_last", half_width(o.stick_steady),
                steady ? "stick in the steady cycle c/t"

@@ -45,7 +45,7 @@ Extent extent(const ReducedProblem &problem, const ContactState &state, double o
    return found;
 }
 
-/// How far the strip lifts off from its end.
+/// Length over which the strip lifts off, from its end.
 double separated_length(const Extent &found, double overhang)
 {
    return std::isfinite(found.separation) ? overhang - found.separation : 0.0;
@@ -56,7 +56,7 @@ void load(Study &study, Run &run, double overhang)
    run.leaves = false;
    run.to({{overhang_load(overhang), 1}});
    run.leaves = true;
-   // One of several states is shown before the study says so and ends.
+   // If the state is one of several, it is shown before the study says so and ends.
    if (!has_state(run.report)) { run.leave(); }
    const Extent found = extent(run.solver.problem(), run.state, overhang);
    study.title(text("Loading, n = %g, f = %g", overhang, run.solver.problem().friction[0]));

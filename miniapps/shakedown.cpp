@@ -202,7 +202,7 @@ void Shakedown::prepare()
    results["contact_nodes"] = problem.nodes();
    standard = !saved && coulomb && punch.half_plane && punch.order > 1 && punch.unbounded();
    results["standard"] = standard;
-   // The error of the mesh: the extremes lie between nodes, which is of second order in their
+   // The error of the mesh: the extremes lie between nodes, so it is of second order in their
    // spacing.
    results["mesh_error_estimate"] =
       30.0 / std::pow(static_cast<double>(problem.nodes() - 1), 2);
@@ -288,7 +288,7 @@ void Shakedown::largest_of_closed()
 LoadCycle Shakedown::cycle_of(const ReducedProblem &of, double R) const
 {
    NamedLoads constant = {{held, 1}};
-   // The forces that close an initial gap are always there.
+   // The forces that close an initial gap always act.
    for (const LoadPattern &pattern : of.patterns)
    {
       if (pattern.name == "gap") { constant["gap"] = 1; }
@@ -318,7 +318,7 @@ LimitReport Shakedown::counted(LimitReport report)
    study.counters += report.counters;
    if (report.status == LimitStatus::stopped)
    {
-      // Before the first programme has ended nothing is known of it.
+      // Before the first programme has ended nothing is known of the limit.
       if (!(report.lower < report.upper)) { stopped("a limit was not found yet"); }
       results["bound_lower"] = report.lower;
       results["bound_upper"] = report.upper;

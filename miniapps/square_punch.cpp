@@ -46,7 +46,7 @@ void dislocations(Study &study, const ReducedProblem &problem, const Eigen::Vect
       Eigen::VectorXd q = tractions(problem, problem.A() * v),
                       p = tractions(problem, problem.B() * v), r = x.array() - x[node];
       const std::string at = exact_text("jump at ", place);
-      // The nodes beside a jump oscillate.
+      // Values at the nodes beside a jump oscillate.
       const Eigen::Index first = std::max<Eigen::Index>(0, node - 4),
                          count = std::min<Eigen::Index>(x.size(), node + 5) - first;
       for (Eigen::VectorXd *drawn : {&q, &p})
@@ -122,7 +122,8 @@ void square_punch(Study &study)
    const auto draw = [&](double load, const ContactState &state)
    {
       slip.add(exact_text("Q/fP = ", load), x, state.v);
-      // The corner's node and its neighbours: the singularity, not the picture's scale.
+      // The corner node and its neighbours are singular, and do not set the scale of the
+      // picture.
       const Eigen::Index skip = std::min<Eigen::Index>(12, problem.nodes() / 4);
       shears.add_tractions(exact_text("Q/fP = ", load), x, problem, state, skip,
                            problem.nodes() - 2 * skip);
@@ -163,7 +164,8 @@ void square_punch(Study &study)
    const double Q = amplitude * friction;
    run.state = pressed;
    run.state.dissipation = 0;
-   // Loss is an integral over the path: finer increments, of equal size in all pieces.
+   // The loss is an integral over the path, so increments are finer, and of equal size in all
+   // pieces.
    const int n = settings.increments;
    run.settings.increments_of_piece = {2 * n, 4 * n, 2 * n};
    run.cycle({{{"Q", Q}}, {{"Q", -Q}}}, cycles);

@@ -34,9 +34,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Whether slip goes straight from one point of the cycle to the next, where it has one
-/// direction, the normal problem does not know of it and no load presses otherwise: one
-/// increment is exact then.
+/// Is one increment between two points of the cycle exact? It is if slip keeps its direction,
+/// does not affect the normal problem, and no load changes the pressure.
 bool path_is_straight(const ReducedProblem &problem, const LoadHistory &history)
 {
    if (problem.coupled || problem.components() > 1) { return false; }
@@ -155,7 +154,7 @@ void wear_contact(Study &study)
    study.results["scene"] = file.empty() ? pad.profile : "reduced";
    if (settings.march.increments == 0)
    {
-      // On a straight path one increment between two points is exact, and takes no events.
+      // On a straight path one increment between two points is exact, without events.
       const bool straight = path_is_straight(scene.problem, scene.history);
       settings.march.increments = straight ? 1 : 20;
       if (straight && !study.options().says("stepping"))
@@ -223,7 +222,7 @@ void wear_contact(Study &study)
       report = wear(problem, law, scene.history, cycles, state, settings, observe);
       settings.march.monitor = {};
    }
-   // One that ends early ends between the rows.
+   // A computation that ends early ends between the rows.
    if (!report.records.empty() && last_row < report.records.back().cycles)
    {
       add_row(state, report.records.back());
@@ -236,7 +235,7 @@ void wear_contact(Study &study)
    study.results["steady_cycle"] = report.steady_cycle;
    study.results["implicit_cycles"] = report.implicit_cycles;
    study.value("volume", worn_volume(problem, state.depth), "worn volume", none);
-   // Where there is no estimate there is no ±.
+   // Without an estimate no ± is printed.
    study.value("depth", state.depth.maxCoeff(), "largest depth",
                std::isfinite(report.error) ? report.error : none);
    study.results["tolerance_reached"] = report.reached;
@@ -281,7 +280,7 @@ void wear_contact(Study &study)
    draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);
    borders.add("from", times, from);
    borders.add("to", times, to);
-   // Across the pad lengths have another unit than along it: a²/R.
+   // Lengths across the pad have another unit than lengths along it: a²/R.
    if (!file.empty()) { warn_of_depth(problem, state.depth, state.contact); }
    if (coefficient == 0 || threshold > 0)
    {

@@ -172,8 +172,8 @@ bool dies_out(const std::vector<double> &losses, const ContactState &loaded)
    return losses.back() <= std::max(1e-9 * losses.front(), 1e-12 * rubbed);
 }
 
-/// Loss of the last cycle over that of the cycle one period before; 1 if they differ only by
-/// round-off, so that the loss has settled.
+/// Factor by which the loss falls per cycle, from the last cycle and the one a period before; 1
+/// if it falls by less than a thousandth, so that it has settled.
 double falls(const std::vector<double> &losses, int period)
 {
    constexpr double settled = 1e-3;

@@ -168,8 +168,8 @@ std::size_t levels_one_way(const std::vector<double> &levels);
 /// All entries of two lists, each once, in their order.
 std::vector<double> joined_once(std::vector<double> first, const std::vector<double> &others);
 
-/// Width of a stretch of contact or stick, with the errors of its borders. No stretch means
-/// width 0.
+/// Half-width of a stretch of contact or stick, and the error of its borders. Both are 0 if
+/// there is no such stretch.
 double half_width(const cattaneo::Zone &zone);
 double read_out_error(const cattaneo::Zone &zone);
 

@@ -16,7 +16,7 @@ namespace miniapp
 namespace
 {
 
-/// Names of examples, and the cases of meshes/ that they are.
+/// Names of examples, and their case files in meshes/.
 const std::vector<std::pair<std::string, std::string>> examples = {
    {"joint", "bolted_joint_drawing"},
    {"pin", "pin"},
@@ -43,7 +43,7 @@ bool prints_example(int argc, char *argv[])
       if (name != wanted) { continue; }
       cattaneo::require(argc == 3, "option --example stands alone: it prints a case and ends");
       std::string text = cattaneo::read_whole(shipped("meshes/" + file + ".json"));
-      // Files that a case names are relative to its folder, which is not known here.
+      // Files that a case names are relative to its folder, which a printed case does not have.
       const std::string key = "\"mesh\": \"", folder = shipped("meshes/");
       for (std::size_t at = text.find(key); at != std::string::npos;
            at = text.find(key, at + 1))

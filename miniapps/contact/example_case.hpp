@@ -8,8 +8,8 @@ namespace miniapp
 /// "joint, pin, …"
 std::string example_names();
 
-/// Prints the case that --example names, whose files are named so that it runs from any folder.
-/// False if the command line has no such option; InputError for a name that is none.
+/// Prints the case that --example names, with names of files that are valid in any folder.
+/// False if the command line has no such option; InputError for an unknown name.
 bool prints_example(int argc, char *argv[]);
 
 } // namespace miniapp

@@ -32,7 +32,7 @@ public:
    const ordered_json &value() const { return value_; }
    [[noreturn]] void refuse(const std::string &allowed) const
    {
-      // Nothing nested is shown: it may be too deep to be written.
+      // Nested values are not shown, because they may be too deep to be written.
       throw InputError(called() + " is " +
                        (value_.empty() && value_.is_structured() ? std::string("empty")
                         : value_.is_array()                      ? "a list"
@@ -46,7 +46,7 @@ public:
       require(has(name), called(), " has no '", name, "', must have one");
       return {value_.at(name), path_ + "." + name};
    }
-   /// InputError unless it is an object of no other keys.
+   /// InputError unless it is an object without other keys.
    void must_be_of(const std::vector<std::string> &keys) const
    {
       if (!value_.is_object())
@@ -82,7 +82,7 @@ public:
       if (!value_.is_boolean()) { refuse("true or false"); }
       return value_.get<bool>();
    }
-   /// A list, or one value for a list of one.
+   /// A list; a single value counts as a list of one.
    std::vector<Key> list() const
    {
       std::vector<Key> keys;
@@ -177,7 +177,7 @@ JointCase::Source source(const Key &key)
    return {key.path()};
 }
 
-/// Names stand in statements and in the names of files.
+/// Names occur in statements and in names of files.
 void check_name(const Key &key, const std::string &name)
 {
    require(!name.empty() && name.find_first_of(" :=,;\"/\\\t\n") == std::string::npos,
@@ -226,7 +226,7 @@ JointCase::Body::Guided guided(const Key &key)
    return {key["on"].text(), guide_of(key), source(key)};
 }
 
-/// Loads of a half-plane: "Q bulk-stress 40", of one name they add up.
+/// Loads of a half-plane: "Q bulk-stress 40"; those of one name add up.
 std::vector<BulkStress> bulk_stresses(const Key &key)
 {
    std::vector<BulkStress> all;
@@ -324,7 +324,7 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    return made;
 }
 
-/// "pad:flank_left", or "ground" of a half-plane.
+/// "pad:flank_left", or "ground" for a half-plane.
 JointCase::Side side(const Key &key, const JointCase &joint)
 {
    const std::string word =
@@ -587,7 +587,7 @@ JointCase::Point point(const Key &key, const std::string &name, const JointCase 
    return made;
 }
 
-/// Calls visit(name, is of displacements) for every load that is named.
+/// Calls visit(name, does it prescribe displacements?) for every load that is named.
 template <class Visit>
 void each_load(JointCase &joint, Visit visit)
 {
@@ -661,7 +661,7 @@ void part_loads(JointCase &joint)
              });
 }
 
-/// The members of a key, an object.
+/// The members of the object that a key has.
 template <class Add>
 void each(const ordered_json &all, const std::string &name, Add add)
 {
@@ -727,7 +727,7 @@ JointCase joint_case(const JointKeys &keys, int order)
    each(keys.bodies, "bodies",
         [&](const Key &key, const std::string &name)
         { joint.bodies.push_back(body(key, name, as_meshed)); });
-   // It has no mesh, and is condensed to the lines of those that stand on it.
+   // A half-plane has no mesh, and is condensed to the lines of the bodies that stand on it.
    std::stable_partition(joint.bodies.begin(), joint.bodies.end(),
                          [](const JointCase::Body &one) { return !one.half_plane; });
    if (!std::isnan(keys.thickness)) { joint.thickness = keys.thickness; }

@@ -16,15 +16,15 @@
 namespace miniapp
 {
 
-/** What a case says of bodies and of where they touch. Texts are in the language of
+/** The content of a case: bodies, interfaces, bolts and points. Texts are in the language of
     docs/contact.md. */
 struct JointCase
 {
-   /// The object that this was read from, as "bodies.pad".
+   /// Place in the case file, such as "bodies.pad".
    struct Source
    {
       std::string path;
-      /// In an error: "key 'bodies.pad.load'".
+      /// Its name in an error: "key 'bodies.pad.load'".
       std::string called(const std::string &key) const
       {
          return "key '" + path + "." + key + "'";
@@ -34,8 +34,8 @@ struct JointCase
    {
       std::string name;
       Source source;
-      std::string mesh, matrix; ///< one of them, or a half-plane
-      std::string deck;         ///< that says where the nodes of the matrix are, if named
+      std::string mesh, matrix; ///< mesh or matrix; neither for a half-plane
+      std::string deck;         ///< the file with the places of the matrix's nodes, if named
       std::string part;         ///< of a mesh that is a deck: instance or set of elements
       std::string split;        ///< a line of Gmsh along which the mesh is cut
       /// Elastic constants: one, one for each attribute, or by the names of groups of elements.
@@ -55,19 +55,19 @@ struct JointCase
          Source source;
       };
       std::vector<Guided> guides;
-      int order = 0;           ///< of its elements, 0: that of the case, or what a matrix knows
+      int order = 0;           ///< of its elements; 0: that of the case, or of the matrix
       double depth = none;     ///< of a half-plane
-      double thickness = none; ///< if it is not that of all
+      double thickness = none; ///< if it differs from that of the case
       bool half_plane = false;
       std::vector<cattaneo::BulkStress> bulk; ///< of a half-plane, its loads
       /// Its sides are the polygons that they are meshed as, and not smooth curves.
       bool as_meshed = false;
    };
    /// A number, a table over the arc length with straight lines between its points (beyond its
-   /// ends constant), or a function of it and the place.
+   /// ends constant), or a function of arc length and place.
    struct Profile
    {
-      std::vector<std::array<double, 2>> points;    ///< one: a number, whatever its arc length
+      std::vector<std::array<double, 2>> points;    ///< one point: the same number everywhere
       std::optional<cattaneo::Expression> function; ///< in place of points, of s, x and y
       double at(double arc_length, const Eigen::Vector2d &place) const;
    };
@@ -77,7 +77,8 @@ struct JointCase
       std::string part;
       std::string called; ///< in an error
    };
-   /// Motion of a rigid obstacle per unit multiplier of a load: a translation and a rotation.
+   /// Motion of a rigid obstacle per unit multiplier of a load: a translation and a rotation
+   /// about a centre.
    struct Motion
    {
       std::string load;
@@ -104,8 +105,8 @@ struct JointCase
       std::vector<Motion> motions;
       /// Guide of a rigid obstacle that is free in some way, or under forces.
       std::optional<cattaneo::Guide> guide;
-      /// Nodes are paired one to one if none is farther off along the contact than this, in
-      /// distances of nodes.
+      /// Nodes are paired one to one if partners are no farther apart along the contact than
+      /// this, in distances of nodes.
       double pairing = none;
    };
    /// A shank between two parts of boundaries, or one part and the ground. Its name is that of
@@ -114,29 +115,29 @@ struct JointCase
    {
       std::string name;
       Source source;
-      std::array<Side, 2> ends; ///< the second of no body: the ground
-      /// From the second end to the first. Not given: along the line between their middles,
-      /// about an axis along that.
+      std::array<Side, 2> ends; ///< the second without a body: the ground
+      /// From the second end to the first. Not given: the line between their middles; in
+      /// axisymmetry the direction of the axis.
       std::optional<Eigen::Vector2d> direction;
       double stiffness = 1;
-      /// The forces of its load: what it would carry if nothing gave way, or with `tightened`
-      /// what it carries when its tightening ends.
+      /// The force of its load: the force that the bolt would have if the clamped parts were
+      /// rigid, or with `tightened` the force when its tightening ends.
       double force = 1;
       bool tightened = false;
    };
 
-   /// Where displacements and stresses are asked for.
+   /// A place at which displacements and stresses are printed.
    struct Point
    {
       std::string name;
       Eigen::Vector2d at{0, 0};
-      int body = -1; ///< -1: in whatever body it is
+      int body = -1; ///< -1: in any body that contains it
    };
 
    cattaneo::Formulation formulation = cattaneo::Formulation::plane;
    bool plane_stress = false;
    int order = 2;
-   /// Thickness of plane bodies that have none of their own. Forces are those of the whole
+   /// Thickness of plane bodies without a thickness of their own. Forces are those of the whole
    /// thickness.
    double thickness = 1;
    std::vector<Body> bodies;
@@ -145,8 +146,8 @@ struct JointCase
    std::vector<Point> points;
    /// Units by their names, both or none.
    std::string unit_of_length, unit_of_force;
-   /// Loads with forces and displacements: their displacements are a load of another name here,
-   /// which goes with the forces. By that name.
+   /// For a load with forces and displacements its displacements are a separate load here, with
+   /// another name and the same multiplier. That name → name of the load.
    std::map<std::string, std::string> go_with;
 
    int body(const std::string &name) const; ///< its number, -1: none
@@ -156,7 +157,7 @@ struct JointCase
    }
 };
 
-/// What the keys of a case hold; null: it is not there.
+/// The values of the keys of a case; null: the key is missing.
 struct JointKeys
 {
    std::string analysis;

@@ -26,7 +26,7 @@ JointReport::JointReport(Study &study, const JointCase &joint, const Reduction &
 namespace
 {
 
-/// Under which a saved state keeps what is known of a bolt.
+/// The name of a bolt's values in a saved state.
 std::string kept_name(const JointCase::Bolt &bolt)
 {
    return "bolt " + bolt.name;
@@ -42,7 +42,7 @@ void JointReport::begin(const OwnHistory &march, const BoltedJoint *bolts)
       const std::string &load = bolts->bolts()[b].load;
       std::size_t k = 0;
       while (joint_.bolts[k].name != load) { ++k; }
-      // Bolts are tightened in the opening part alone.
+      // Bolts are tightened only in the opening part.
       for (int p = 0; p < history.pieces() && history.piece(p).cycle == 0; ++p)
       {
          const LoadPiece piece = history.piece(p);
@@ -83,7 +83,7 @@ void JointReport::keep(ContactState &state) const
    }
 }
 
-/// Is a bolt being tightened at this time, or does it come to the end of it?
+/// Is a bolt being tightened at this time, or does its tightening end here?
 bool JointReport::is_tightened(std::size_t bolt, double time, double load) const
 {
    if (!joint_.bolts[bolt].tightened) { return load > range_[bolt].load; }
@@ -100,7 +100,7 @@ Vector2d JointReport::middle(const InterfaceReport &face) const
 {
    const Vector2d mean = face.position.transpose() * face.weights / face.weights.sum();
    const double size = face.position.cwiseAbs().maxCoeff();
-   // Places of meshes have less digits.
+   // Coordinates of meshes have fewer digits.
    return {settled(mean[0], 1e3 * size), settled(mean[1], 1e3 * size)};
 }
 
@@ -128,7 +128,7 @@ JointReport::Resultant JointReport::resultant(const InterfaceReport &face,
    {
       const Vector2d t = face.tangent.row(i), n(-t[1], t[0]);
       const Vector2d force = (face.of_second ? -1 : 1) * (q[i] * t + p[i] * n);
-      // On the first body and on the second, which feels the opposite.
+      // On the first body, and with the opposite sign on the second.
       const Vector2d arm = face.acts_at[face.of_second].row(i).transpose() - about,
                      apart = (face.acts_at[face.of_second].row(i) -
                               face.acts_at[!face.of_second].row(i))
@@ -165,7 +165,7 @@ std::vector<double> JointReport::shanks(const ContactState &state) const
    for (const JointCase::Bolt &bolt : joint_.bolts)
    {
       const int k = reduction_.problem.pattern(bolt.name);
-      // Its conjugate is how far the ends have come together, times the pattern's force.
+      // Its conjugate is the approach of the ends, times the force of the pattern.
       forces.push_back(bolt.force * state.multipliers[k] -
                        bolt.stiffness * approach[k] / bolt.force);
    }
@@ -174,12 +174,12 @@ std::vector<double> JointReport::shanks(const ContactState &state) const
 
 void JointReport::note(const ContactState &state, int cycle)
 {
-   // Where a march is taken up: the loops of a cycle that has begun are not known.
+   // If a march continues within a cycle, the loops of this cycle are not known.
    if (cycle == 0 && state.cycle) { begun_ = state.cycle->cycle; }
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {
-      // What a bolt bears while its own load grows is of the way there.
+      // The force of a bolt during its own tightening does not count.
       Range &range = range_[k];
       const double load =
          std::abs(state.multipliers[reduction_.problem.pattern(joint_.bolts[k].name)]);
@@ -214,7 +214,7 @@ void JointReport::note(const ContactState &state, int cycle)
       const double shear = -settled(forces.sum(), forces.lpNorm<1>());
       if (cycle > 0)
       {
-         const bool first = course.slip.empty(); // of a march that is taken up in a cycle
+         const bool first = course.slip.empty(); // of a march that continues within a cycle
          Course::Cycle &its =
             course.cycles
                .try_emplace(
@@ -222,7 +222,8 @@ void JointReport::note(const ContactState &state, int cycle)
                                             first ? slip : course.slip.back())})
                .first->second;
          its.loop.add(shear, slip);
-         // Meshes that are symmetric to their digits leave millionths of what presses.
+         // Symmetry of a mesh with few digits leaves resultants of a millionth of the normal
+         // forces.
          its.force =
             std::max({its.force, forces.lpNorm<1>(),
                       twists() ? 0 : 1e6 * state.p.segment(face.first, face.nodes).sum()});
@@ -336,7 +337,7 @@ void JointReport::report_cycles(const MarchReport &march)
        {"slip_range", twists() ? "of mean turn" : "of mean slip" + u.of(0, 1), "%.4e"},
        {"stiffness", "secant" + u.total(twists() ? 1 : -1), "%.4e"},
        {"loss_factor", "loss factor", "%.4f"}});
-   // The last cycle alone is printed.
+   // Only the last cycle is printed.
    table.quiet(!study_.verbose());
    for (const ordered_json &row : study_.rows_before(table.name()))
    {
@@ -373,7 +374,7 @@ void JointReport::report_cycles(const MarchReport &march)
 void JointReport::report_bolts(const ContactState &state)
 {
    const Units &u = study_.units;
-   // Without a record of the march before, what is known begins where this one is taken up.
+   // Without a record of the march before, the values begin where this march continues.
    const bool begins = known_from_ > 0;
    ResultTable &table = study_.table(
       "bolts",
@@ -398,7 +399,7 @@ void JointReport::report_bolts(const ContactState &state)
       const JointCase::Bolt &bolt = joint_.bolts[k];
       const Range &range = range_[k];
       std::vector<std::string> points;
-      double last = 0; // when its tightening ended, as far as the march went
+      double last = 0; // when its tightening ended, if the march came so far
       for (const Tightening &one : tightenings_[k])
       {
          if (one.from >= state.time) { continue; }
@@ -409,7 +410,7 @@ void JointReport::report_bolts(const ContactState &state)
       study_.row(table, {bolt.name, listed(points), unknown ? none : range.tight,
                          unknown ? none : range.all_tight, now[k], range.least, range.most,
                          unknown ? known_from_ : none});
-      // Bolts that are still to be tightened give a little with those that are.
+      // Bolts that are not tightened yet move a little with the others.
       if (bolt.tightened || range_[k].push <= 1e-3 * bolt.force) { continue; }
       warn(text(
          "bolt '%s' is compressed, by up to %g, where a real bolt would become loose: tighten "

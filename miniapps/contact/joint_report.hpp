@@ -14,31 +14,33 @@
 namespace miniapp
 {
 
-/// What is said of a case's interfaces and bolts: resultants, losses, loops, forces.
+/// The report on a case's interfaces and bolts: resultants, losses, loops, forces.
 class JointReport
 {
 public:
    /// All must outlive it.
    JointReport(Study &study, const JointCase &joint, const cattaneo::Reduction &reduction);
-   /// The march that begins: when its bolts are tightened, and what a state from which it is
-   /// taken up keeps of them. Prints which bolts are tightened again by a value that they have.
+   /// To be called when a march begins: finds when its bolts are tightened, and reads their
+   /// values from the state with which it continues. Prints which bolts are tightened again to
+   /// the value that they have.
    void begin(const OwnHistory &history, const cattaneo::BoltedJoint *bolts);
-   /// Puts into a state that is saved what begin() is to find in it.
+   /// Adds the values that begin() reads to a state before it is saved.
    void keep(cattaneo::ContactState &state) const;
-   /// A state that the march has reached, in this cycle (0: in none), or is taken up from (0).
+   /// Takes a state that the march has reached, in this cycle (0: in none), or with which it
+   /// continues (0).
    void note(const cattaneo::ContactState &state, int cycle);
-   /// Forces of the contact on the first body, of a case with one interface; also in the
+   /// Reports the contact forces on the first body, for a case with one interface; also in the
    /// results.
    std::string of_state(const cattaneo::ContactState &state);
-   /// Forces of the shanks.
+   /// Reports the forces of the shanks.
    std::vector<double> shanks(const cattaneo::ContactState &state) const;
-   /// Tables and loops, at the end.
+   /// Prints tables and loops, at the end.
    void report(const cattaneo::ContactState &state, const cattaneo::MarchReport &march);
 
 private:
    /// Resultants of an interface: pressure and shear on its first body, and their moment about
-   /// its middle (about an axis, the torque). The defect is the sum of the moments on both
-   /// bodies.
+   /// its middle (in axisymmetry the torque). The defect is the sum of the moments on both
+   /// bodies, which should be zero.
    struct Resultant
    {
       double normal = 0, tangential = 0, moment = 0, defect = 0, torque = 0;
@@ -63,28 +65,28 @@ private:
    /// twist, mean rotation and torque.
    struct Course
    {
-      std::vector<double> slip, shear; ///< as far as a picture can show
+      std::vector<double> slip, shear; ///< as many as a picture can show
       /// The last point before a cycle begins its loop.
       struct Cycle
       {
          cattaneo::Loop loop;
-         double force = 0, slip = 0; ///< what is less than 1e-12 of these is none
+         double force = 0, slip = 0; ///< values below 1e-12 of these count as zero
       };
       std::map<int, Cycle> cycles;
    };
    std::vector<Course> courses_;
-   int begun_ = 0; ///< cycle within which the march was taken up
+   int begun_ = 0; ///< cycle within which the march continued
    struct Range
    {
       double load = 0;            ///< the largest multiplier of the bolt's own load so far
       double least = 0, most = 0; ///< since its tightening ended
-      double push = 0;            ///< the most that it pushed its ends apart at any time
+      double push = 0;            ///< the largest force with which it pushed its ends apart
       double tight = 0;           ///< its force when its own tightening ended
-      double all_tight = 0;       ///< and when that of the last bolt did
+      double all_tight = 0;       ///< its force when all bolts were tightened
    };
    std::vector<Range> range_; ///< of each bolt's force
-   /// Points of the history that tighten a bolt, and the times at which each of these begins
-   /// and ends. None of a bolt with a pretension.
+   /// Points of the history that tighten a bolt, and the times at which each of these
+   /// tightenings begins and ends. None for a bolt with a pretension.
    struct Tightening
    {
       int point = 0;
@@ -92,7 +94,7 @@ private:
    };
    std::vector<std::vector<Tightening>> tightenings_;
    bool is_tightened(std::size_t bolt, double time, double load) const;
-   /// Of a march that is taken up from a state that keeps nothing of its bolts: its time.
+   /// For a march that continues from a state without values of bolts: its time.
    double known_from_ = 0;
 };
 

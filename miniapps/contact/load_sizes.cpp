@@ -18,21 +18,21 @@ using nlohmann::ordered_json;
 namespace
 {
 
-/// What one body, guide, obstacle or bolt has of a load.
+/// The share of one body, guide, obstacle or bolt in a load.
 struct Share
 {
-   std::string kind;     ///< as LoadSize has it, "forces" of what acts on a body's nodes
+   std::string kind;     ///< as in LoadSize; "forces": on nodes of a body
    Vector2d along{0, 0}; ///< the resultant, or the displacement
-   double moment = 0;    ///< about the origin; an angle; of a scalar kind its value
+   double moment = 0;    ///< about the origin; an angle; for a scalar kind its value
    double size = 0;      ///< sum of the forces, to tell round-off from a resultant
    double lever = 0;     ///< the same of the moment
    std::string place;    ///< what is loaded
-   bool known = true;    ///< false: a function stands where a number is needed
-   int statements = 1;   ///< of which it is made
-   double pressure = 0;  ///< of a single statement of a pressure
+   bool known = true;    ///< false: the statement has a function in place of a number
+   int statements = 1;   ///< number of the statements in it
+   double pressure = 0;  ///< for a single statement of a pressure
 };
 
-/// A word that is a plain number; otherwise nothing is known of it.
+/// The value of a word that is a plain number; otherwise unknown.
 std::optional<double> plain_number(const std::string &word)
 {
    char *end = nullptr;
@@ -49,7 +49,7 @@ public:
 
    void add(const std::string &load, Share share) { all_[load].push_back(std::move(share)); }
 
-   /// What the statements of a body say, other than forces: displacements, turns, strains.
+   /// The statements of a body other than forces: displacements, twists, strains.
    void add_statements(const JointCase::Body &body)
    {
       for (const std::string &statement : split(body.load, ";\n"))
@@ -104,7 +104,7 @@ public:
          if (load.control != Control::force || !describe(body, load.name, made)) { continue; }
          for (Index dof = 0; dof < load.values.size(); ++dof)
          {
-            // About an axis radial forces cancel.
+            // In axisymmetry radial forces cancel.
             if (!plane && held.component[dof] == 0) { continue; }
             const double force = thickness * load.values[dof];
             const Vector2d &at = held.place[dof];
@@ -131,7 +131,7 @@ public:
       }
    }
 
-   /// One way of a rigid block, a guide or an obstacle. @param way 0: x, 1: y, 2: about
+   /// One motion of a rigid block, a guide or an obstacle. @param way 0: x, 1: y, 2: rotation
    void add_way(const Guide::Along &along, int way, const std::string &place)
    {
       if (along.load.empty()) { return; }
@@ -160,7 +160,7 @@ public:
       add_way(guide.rotation, 2, place);
    }
 
-   /// The size of a load; empty where none is known.
+   /// The size of a load; empty if it is not known.
    LoadSize of(const std::string &load) const
    {
       const auto found = all_.find(load);
@@ -195,8 +195,8 @@ public:
    }
 
 private:
-   /// Which parts of a body a load of forces acts on; false if it has no statement of forces
-   /// there.
+   /// The parts of a body on which a load of forces acts; false if no statement of forces has
+   /// this load.
    bool describe(const JointCase::Body &body, const std::string &load, Share &made) const
    {
       made.kind = "forces";
@@ -218,7 +218,7 @@ private:
          if (kind == "pressure") { made.pressure = plain_number(words[3]).value_or(0); }
       }
       if (!parts.empty()) { made.place += ":" + listed(parts, ","); }
-      // A card of a deck has no statement; a bolt and a guide are told apart elsewhere.
+      // A card of a deck has no statement. Bolts and guides are treated elsewhere.
       return made.statements > 0 || load.rfind("CLOAD", 0) == 0;
    }
 
@@ -273,7 +273,7 @@ private:
       }
    }
 
-   /// Components of one part add up; all parts must move alike.
+   /// Components of one part add up. All parts must have the same motion.
    void add_displacement(const std::vector<Share> &shares, LoadSize &made) const
    {
       std::map<std::string, Vector2d> parts;

@@ -31,7 +31,7 @@ void NamedPoints::find(const JointCase::Point &point)
       {
          const HalfPlane &plane = *own_.half_plane;
          const double depth = plane.normal.dot(point.at - plane.point);
-         // What lies on the surface to round-off lies on it.
+         // A point that is on the surface within round-off counts as on it.
          if (depth < -1e-9 * point.at.norm()) { continue; }
          require(joint_.formulation == Formulation::plane &&
                     !std::isnan(joint_.bodies[b].depth),

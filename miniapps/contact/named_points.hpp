@@ -9,19 +9,19 @@ namespace miniapp
 {
 
 /// Displacements and stresses at the points that a case names: at the end in a table, and with
-/// --csv of each recorded state in PREFIX_point_history.csv.
+/// --csv for each recorded state in PREFIX_point_history.csv.
 class NamedPoints
 {
 public:
    /// All must outlive it. InputError for a point that is in no body.
    NamedPoints(Study &study, const JointCase &joint, OwnBodies &own);
-   /// Begins the file, or goes on with it from a state.
+   /// Begins the file, or continues it from a state.
    void begin(const cattaneo::ContactState &state);
    void note(const cattaneo::ContactState &state);
    void report(const cattaneo::ContactState &state);
 
 private:
-   /// A point in one of the bodies that have it.
+   /// A point in one of the bodies that contain it.
    struct Place
    {
       std::string name;
@@ -43,7 +43,7 @@ private:
    OwnBodies &own_;
    std::vector<Place> places_;
    std::optional<cattaneo::StreamedFile> file_;
-   double last_ = none; ///< time that was noted last: the end of a march is observed twice
+   double last_ = none; ///< last recorded time, because the end of a march is observed twice
 };
 
 } // namespace miniapp

@@ -17,8 +17,8 @@ using namespace cattaneo;
 namespace
 {
 
-/// From the second end of a bolt to the first: what the case says, or the line between the
-/// middles of both ends. About an axis it is along that, since the ends are rings.
+/// From the second end of a bolt to the first: the direction of the case, or the line between
+/// the middles of both ends. In axisymmetry it is along the axis, because the ends are rings.
 Eigen::Vector2d direction_of(const JointCase &joint, const JointCase::Bolt &bolt,
                              const std::array<Eigen::Vector2d, 2> &ends)
 {
@@ -30,7 +30,7 @@ Eigen::Vector2d direction_of(const JointCase &joint, const JointCase::Bolt &bolt
            ": the middles of both ends are at ", ends[0], " and ", ends[1],
            ", so that no direction follows from them: the bolt must have the key 'direction', "
            "which points from the second end to the first");
-   // Without the round-off of the middles.
+   // Removes the round-off of the middles.
    for (double &x : apart) { x = settled(x, 1e4 * apart.norm()); }
    return apart.normalized();
 }
@@ -73,7 +73,8 @@ OwnBodies make_own_bodies(const JointCase &joint)
       {
          if (bolt.ends[k].body < 0) { continue; }
          OwnPart &part = parts[bolt.ends[k].body];
-         // The shank pulls the ends together, with forces of a body's own thickness.
+         // The shank pulls the ends together. Forces on each body are those of its own
+         // thickness.
          const double pull =
             (k == 0 ? -bolt.force : bolt.force) / joint.thickness_of(bolt.ends[k].body);
          part.named([&] { part.pull(bolt.name, bolt.ends[k], pull * along); });
@@ -112,7 +113,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
               " is in no interface, so nothing touches it: name an interface for it, or leave "
               "it out");
       const ContactLine line = of_body[b].size() == 1 ? of_body[b][0] : joined(of_body[b]);
-      // The last with a factor that this one's could be.
+      // The last body whose factor this one may share.
       const CondensedBody *alike = nullptr;
       for (const CondensedBody &before : condensed)
       {
@@ -135,7 +136,8 @@ OwnBodies make_own_bodies(const JointCase &joint)
    }
    catch (const InputError &error)
    {
-      // What such bodies fail by says little.
+      // If sizes suggest mixed units, that sentence comes first, because the error alone does
+      // not tell the cause.
       throw InputError(units.empty() ? error.what() : units + " (" + error.what() + ")");
    }
    if (!units.empty()) { warn(units); }

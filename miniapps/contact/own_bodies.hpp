@@ -12,15 +12,15 @@
 namespace miniapp
 {
 
-/// Dofs of a body that something outside of it holds or moves.
+/// Dofs of a body that one support, guide or load holds or moves.
 struct Holding
 {
    std::string kind;      ///< support, guide or displacement
-   std::string name;      ///< as the case has it: "end:xy", the part of a guide, a load
-   std::vector<int> dofs; ///< none is another's
+   std::string name;      ///< its name in the case: "end:xy", the part of a guide, a load
+   std::vector<int> dofs; ///< each dof belongs to one of them
 };
 
-/// What forces on a body follow from when its displacements are known.
+/// Data from which the forces on a body follow, if its displacements are known.
 struct HeldBody
 {
    cattaneo::SharedMatrix K;           ///< of all dofs; none of a half-plane
@@ -28,7 +28,7 @@ struct HeldBody
    std::vector<Eigen::Vector2d> place; ///< of each dof
    std::vector<cattaneo::BodyLoad> loads;
    std::vector<Holding> holdings;
-   /// The same around the axis, where the body twists: of the turns of its nodes, and torques.
+   /// The same around the axis, if the body twists: rotations of its nodes, and torques.
    struct Around
    {
       cattaneo::SharedMatrix K;
@@ -36,30 +36,31 @@ struct HeldBody
       std::vector<cattaneo::BodyLoad> loads;
       std::vector<Holding> holdings;
    } around;
-   /// Supports are no rows of K: what they bear is what is left over.
+   /// Supports have no rows in K; their forces follow from the balance.
    bool supports_left_out = false;
 };
 
-/// What a case is reduced to.
+/// The bodies of a case, reduced.
 struct OwnBodies
 {
    Scene scene;
    std::optional<cattaneo::HalfPlane> half_plane;          ///< the last body
    std::vector<std::vector<cattaneo::Material>> materials; ///< of each body
-   /// Estimated relative error of the stiffness; of bodies in series no more than the worst.
+   /// Estimated relative error of the stiffness; for bodies in series that of the worst body at
+   /// most.
    double accuracy = 0;
-   std::vector<HeldBody> held; ///< of each body
-   bool known_elements = true; ///< false: of a body that is a matrix they are not
-   std::optional<cattaneo::BoltedJoint> bolted; ///< of bolts that are tightened to a force
+   std::vector<HeldBody> held;                  ///< of each body
+   bool known_elements = true;                  ///< false for a body that is a matrix
+   std::optional<cattaneo::BoltedJoint> bolted; ///< for bolts that are tightened to a force
 
    const cattaneo::ContactLine &line(int body = 0) const
    {
       return scene.reduction.bodies[body].line;
    }
-   /// E* if all is of one material, else 0. Of materials that are known.
+   /// E* if all bodies have the same known material, else 0.
    double modulus() const;
    /// The corner at the first (1) or the last (-1) node of body 1's line; the lines of the two
-   /// bodies run against each other. InputError where its exponents are not known.
+   /// bodies run in opposite directions. InputError if its exponents are not known.
    cattaneo::fretting::CornerModes corner(int end) const;
 };
 

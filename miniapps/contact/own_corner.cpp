@@ -6,7 +6,7 @@
 #include <cattaneo/mesh/filled_corner.hpp>
 #include <cmath>
 
-/// What edges and corners of contact ask of the bodies: their moduli and angles.
+/// The moduli and angles of the bodies, for edges and corners of contact.
 namespace miniapp
 {
 

@@ -18,7 +18,7 @@ Eigen::Vector2d mean_normal(const ContactLine &line)
 namespace
 {
 
-/// How much of the nodes' common displacement along an axis the body resists, of 1.
+/// Share of the nodes' common displacement along an axis that the body resists, from 0 to 1.
 double held_share(const CondensedBody &body, const Eigen::Vector2d &axis)
 {
    const Eigen::VectorXd motion = (body.rigid_motions().leftCols(2) * axis).normalized();
@@ -93,12 +93,13 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
       level = std::min(level, (one.first.line.each(&LineNode::position) * normal).minCoeff());
    }
    below.normal = -normal;
-   // A bulk stress leaves the middle of the contact where it is.
+   // A bulk stress does not move the middle of the contact.
    below.bulk = plane.bulk;
    if (!below.bulk.empty() && !held && !about_axis) { at = box.center(); }
    below.point = at + (level - normal.dot(at)) * normal;
    if (about_axis) { below.point[0] = 0; }
-   const bool relative = !about_axis && std::isnan(plane.depth); // to nothing: forces alone
+   const bool relative =
+      !about_axis && std::isnan(plane.depth); // no depth: only forces are possible
    for (const CondensedBody &body : bodies)
    {
       if (!relative) { break; }

@@ -66,7 +66,8 @@ bool has_shape(const JointCase::Face &face)
    return !face.obstacle.empty() || !std::isnan(face.radius) || face.curve;
 }
 
-/// A rigid motion of the obstacle of an interface: along, and a turn about a centre.
+/// A rigid motion of the obstacle of an interface: a translation, and a rotation about a
+/// centre.
 ObstacleMotion rigid(std::size_t interface, const JointCase::Motion &one)
 {
    return {interface,
@@ -74,8 +75,8 @@ ObstacleMotion rigid(std::size_t interface, const JointCase::Motion &one)
            [one](double x, double) { return one.along[1] + one.angle * (x - one.centre[0]); }};
 }
 
-/// Loads that move rigid obstacles, of several interfaces if they have one name, and obstacles
-/// that are free to move.
+/// Loads that move rigid obstacles (one load may move those of several interfaces), and
+/// obstacles that are free to move.
 void move_obstacles(Reduction &reduction, const JointCase &joint)
 {
    std::map<std::string, std::vector<ObstacleMotion>> loads;
@@ -91,7 +92,7 @@ void move_obstacles(Reduction &reduction, const JointCase &joint)
          const Guide::Along &along = way == 0   ? face.guide->x
                                      : way == 1 ? face.guide->y
                                                 : face.guide->rotation;
-         // About an axis it moves along that alone.
+         // In axisymmetry it moves only along the axis.
          const bool said = !along.load.empty();
          require(plane || way == 1 || !said, face.source.called("guide"),
                  ": about an axis an obstacle moves along y alone");
@@ -124,7 +125,8 @@ void move_obstacles(Reduction &reduction, const JointCase &joint)
    for (const auto &[load, motions] : loads) { reduction.add_obstacle_motion(load, motions); }
 }
 
-/// Where a place is along a line, at the nearest point; beyond its ends as the line goes on.
+/// Arc length of the point of a line that is nearest to a place. Beyond the ends the line is
+/// continued straight.
 double arc_length_on(const ContactLine &line, const Eigen::Vector2d &place)
 {
    double nearest = std::numeric_limits<double>::infinity(), found = 0;
@@ -148,7 +150,7 @@ double arc_length_on(const ContactLine &line, const Eigen::Vector2d &place)
    return found;
 }
 
-/// An obstacle in a wrong place, or in other units, is not an interference.
+/// A larger overlap means an obstacle in a wrong place, or in other units, not an interference.
 void check_overlap(const ReducedProblem &problem, const InterfaceReport &report,
                    const JointCase::Face &face, const ContactLine &line)
 {
@@ -181,7 +183,7 @@ std::vector<Interface> interfaces_of(const JointCase &joint,
       made.tied = face.tied;
       if (face.sides[1].body >= 0) { made.second = {face.sides[1].body, lines[k][1]}; }
       else { made.gap = distance_to_rigid_line(lines[k][0]); }
-      // By the arc length or the normals, which are not known yet.
+      // These depend on the arc length or the normals, which are not known yet.
       if (face.gap || has_shape(face)) { made.gap = 0.0; }
       interfaces.push_back(std::move(made));
    }
@@ -214,7 +216,7 @@ void complete(OwnBodies &own, const JointCase &joint,
       const JointCase::Face &face = joint.faces[k];
       InterfaceReport &report = reduction.interfaces[k];
       report.name = face.name;
-      if (face.gap && face.sides[1].body >= 0) // whatever the geometry is
+      if (face.gap && face.sides[1].body >= 0) // for any geometry
       {
          report.chords.setZero();
          report.curved.setZero();
@@ -257,7 +259,7 @@ void complete(OwnBodies &own, const JointCase &joint,
          check_overlap(problem, report, face, lines[k][0]);
       }
    }
-   // When the coefficients of all others are known.
+   // To be done when the coefficients of all other interfaces are known.
    for (const auto &[face, nodes] : laws)
    {
       try
@@ -269,7 +271,7 @@ void complete(OwnBodies &own, const JointCase &joint,
          throw InputError(face->source.called("strength") + ": " + error.what());
       }
    }
-   // A bolt that is tightened to a force is a spring only then.
+   // A bolt that is tightened to a force becomes a spring only after that.
    std::vector<Bolt> tightened;
    for (const JointCase::Bolt &bolt : joint.bolts)
    {

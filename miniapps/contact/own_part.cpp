@@ -41,7 +41,7 @@ std::vector<Material> materials(const JointCase::Body &body, int attributes, boo
    return list;
 }
 
-/// Those of the sections of a deck, if the case names none.
+/// The materials of the sections of a deck, if the case names none.
 JointCase::Body with_materials(JointCase::Body body, const MeshNames &names)
 {
    if (!body.young.empty()) { return body; }
@@ -60,7 +60,7 @@ JointCase::Body with_materials(JointCase::Body body, const MeshNames &names)
    return body;
 }
 
-/// A constant for each attribute of the elements, of those by the names of their groups.
+/// A constant for each attribute of the elements, given by number or by the name of the group.
 void by_attribute(JointCase::Body::Constants &constants, const std::string &key,
                   const mfem::Mesh &mesh, const MeshNames &names)
 {
@@ -76,7 +76,7 @@ void by_attribute(JointCase::Body::Constants &constants, const std::string &key,
               "', which is no group of elements of the mesh, must be one of ",
               groups.empty() ? "none: the mesh has no names" : listed(groups));
       known.insert(found->second);
-      // Of a group without elements nothing is said.
+      // A group without elements needs no value.
       if (found->second <= mesh.attributes.Max())
       {
          constants.values[found->second - 1] = value;
@@ -94,7 +94,7 @@ void by_attribute(JointCase::Body::Constants &constants, const std::string &key,
    }
 }
 
-/// Forces and moments on a rigid block as the body has them, per thickness.
+/// Forces and moments on a rigid block, per thickness as in the body.
 Guide per_thickness(Guide guide, double thickness)
 {
    for (Guide::Along *along : {&guide.x, &guide.y, &guide.rotation})
@@ -104,7 +104,7 @@ Guide per_thickness(Guide guide, double thickness)
    return guide;
 }
 
-/// What a deck says of plane stress or strain, if the case says otherwise; else nothing.
+/// The plane state of a deck, in words, if the case has the other one; else empty.
 std::string other_plane_state(const MeshNames &names, bool plane_stress, bool about_axis)
 {
    if (about_axis && !names.axisymmetric && !names.plane_elements.empty())
@@ -178,7 +178,8 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          {
             if (!warning.empty()) { warn(warning); }
          }
-         // As meshed no node moves, and the curves that the file knows are those of estimates.
+         // With `as meshed` no node moves. The curves of the file are then used only for
+         // estimates.
          const std::string support = body_.source.called("support");
          sides_ = curve_sides(mesh, body_.as_meshed ? 1 : order(), of_sides(b), curves,
                               supported_attributes(support, body_.support, terms_));
@@ -243,7 +244,7 @@ std::vector<OwnPart::Dof> OwnPart::dofs() const
 namespace
 {
 
-/// What a load says of the displacements of a body's dofs.
+/// The displacements that a load prescribes to dofs of a body.
 struct Prescribed
 {
    std::string load;
@@ -282,7 +283,7 @@ void OwnPart::require_one_displacement() const
    };
    const auto by = [](const Prescribed &one, int dof)
    { return as_text((*one.values)[dof]) + " per unit of load '" + one.load + "'"; };
-   // A support that a load moves.
+   // A support whose dofs a load moves.
    for (const Holding &held : twisting_ ? around_ : holdings_)
    {
       for (const int dof : held.dofs)
@@ -297,8 +298,8 @@ void OwnPart::require_one_displacement() const
          }
       }
    }
-   // Two loads that move the same nodes add up. If they share some alone, as a corner, the
-   // others follow one of them, and the shared ones would follow the sum.
+   // Two loads that move the same nodes add up. If they share only some nodes, such as a
+   // corner, the shared nodes would follow the sum and all others only one of the loads.
    for (std::size_t a = 0; a < all.size(); ++a)
    {
       for (std::size_t b = a + 1; b < all.size(); ++b)
@@ -373,7 +374,7 @@ std::vector<int> OwnPart::fixed() const
 namespace
 {
 
-/// What holds dofs that were free before it was done.
+/// Appends the dofs that are held in `after` but not in `before`.
 void note_holding(std::vector<Holding> &all, const std::string &kind, const std::string &name,
                   const std::vector<int> &before, const std::vector<int> &after)
 {
@@ -464,7 +465,7 @@ void OwnPart::make_of_matrix(NodalStiffness matrix)
       hold("displacement", load,
            [&]
            {
-              // The rows that it prescribes are those that it would hold alone.
+              // A load prescribes the rows that it would hold if it were the only one.
               std::vector<int> before;
               std::swap(before, nodal_->fixed);
               add_loads(*nodal_, body_.source.called("load"), one, body_.order);
@@ -518,7 +519,7 @@ ContactLine OwnPart::line(const JointCase::Side &side) const
       nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part), body_.order)
              : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
    made.as_meshed = body_.as_meshed;
-   // The file knows more than a line alone.
+   // The file has more information than the line alone.
    bend_elements(made, sides_.chords);
    bend_elements(made, sides_.folding);
    return made;
@@ -658,7 +659,7 @@ std::vector<CondensedBody> condensed_twisting(const JointCase &joint,
 namespace
 {
 
-/// "'LOWER': FACE, BOTTOM; 'UPPER': TOP, …", some sets of each.
+/// "'LOWER': FACE, BOTTOM; 'UPPER': TOP, …", with some sets of each part.
 std::string sets_of(const std::vector<NodalStiffness> &bodies)
 {
    constexpr std::size_t most = 12;
@@ -705,7 +706,7 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
          }
       }
    }
-   // The parts of each file go to their bodies. These have their names and sets alone.
+   // Gives the parts of each file to their bodies, which so far have only their names and sets.
    std::map<std::string, std::vector<NodalStiffness>> shells;
    for (const auto &[file, bodies] : files)
    {

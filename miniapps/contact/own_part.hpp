@@ -22,16 +22,16 @@ public:
    OwnPart(OwnBodies &own, const JointCase &joint, int b);
    /// The body of a matrix that has the sets of its contacts.
    void make_of_matrix(cattaneo::NodalStiffness matrix);
-   /// The torsion of the body, on its mesh.
+   /// The torsion body on the same mesh.
    void add_twisting(OwnBodies &own, std::size_t b);
 
    cattaneo::ContactLine line(const JointCase::Side &side) const;
    bool has_load(const std::string &load) const;
    /// The middle of an end of a shank.
    Eigen::Vector2d middle(const JointCase::Side &end) const;
-   /// An end of a shank: forces that add up to F, spread evenly.
+   /// Adds forces on an end of a shank that add up to F, spread evenly.
    void pull(const std::string &load, const JointCase::Side &end, const Eigen::Vector2d &F);
-   /// Does a load push nothing but what supports and other loads hold?
+   /// Does a load act only on dofs that supports and other loads hold?
    bool holds_all_of(const std::string &load) const;
    /// InputError if two loads, or a load and a support, ask for different displacements of a
    /// node.
@@ -39,16 +39,16 @@ public:
    cattaneo::CondensedBody condensed(const cattaneo::ContactLine &line,
                                      const cattaneo::CondensedBody *alike) const;
    const cattaneo::SmoothSides &sides() const { return sides_; }
-   /// When all loads are there, shanks among them.
+   /// To be called when all loads exist, those of shanks too.
    HeldBody held() const;
-   /// Is something said of what happens around the axis?
+   /// Does the case have supports or loads around the axis?
    bool twists() const { return cattaneo::twists(body_.support, body_.load); }
-   /// To the nodes of its sides of interfaces, in their order.
+   /// Condenses to the nodes of the body's sides of interfaces, in their order.
    cattaneo::CondensedBody condensed_twisting(const std::vector<JointCase::Side> &sides) const;
 
    /// The diagonal of the box around it; 0: not known, on several ranks.
    double size() const;
-   /// Are its vertices those of the other, at the same places? False for matrices.
+   /// Are its vertices at the places of the other body's? False for matrices.
    bool lies_on(const OwnPart &other) const;
    /// Dofs that its supports hold.
    std::set<int> supported() const;
@@ -79,13 +79,14 @@ private:
    };
    std::vector<Dof> dofs_of(const cattaneo::ElasticBody &body) const;
    std::vector<Dof> dofs() const;
-   /// Does what holds something; all that was free before is its.
+   /// Does something that holds dofs. The dofs that were free before are recorded as held by
+   /// it.
    template <class Hold>
    void hold(const std::string &kind, const std::string &name, Hold hold);
    /// The same around the axis.
    template <class Hold>
    void hold_around(const std::string &kind, const std::string &name, Hold hold);
-   /// Boundary attributes of the body's sides of interfaces; of slits: on which it meets
+   /// Boundary attributes of the body's sides of interfaces; of slits: those on which it meets
    /// itself.
    std::vector<int> of_sides(int b, bool slits = false) const;
    int order() const { return body_.order > 0 ? body_.order : joint_.order; }
@@ -96,17 +97,17 @@ private:
    std::vector<double> vertices_; ///< x and y of each vertex of its mesh
    std::optional<cattaneo::NodalStiffness> nodal_;
    cattaneo::BodyTerms terms_;
-   cattaneo::SmoothSides sides_;            ///< of the mesh, and what was done to it
+   cattaneo::SmoothSides sides_;            ///< what curve_sides() did to the mesh
    std::vector<Holding> holdings_, around_; ///< the second around the axis
    /// Rows of a matrix that a load prescribes.
    std::map<std::string, std::set<int>> prescribed_;
 };
 
-/// Of bodies that are matrices each takes the part of its file that has the sets which its
-/// contacts name.
+/// Gives each body that is a matrix the part of its file with the sets that its interfaces
+/// name.
 void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts);
 
-/// Adds the torsion of all bodies if a support or a load of one asks for it.
+/// Adds torsion bodies for all bodies if a support or a load of one body acts around the axis.
 bool twist(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts);
 std::vector<cattaneo::CondensedBody> condensed_twisting(const JointCase &joint,
                                                         const std::vector<OwnPart> &parts);

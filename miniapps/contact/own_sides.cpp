@@ -44,7 +44,7 @@ void require_side_free(const JointCase &joint, const JointCase::Face &face,
       require(inside == 0 || inside < line.size(), called(joint, face, side),
               " is all of it in the guide on '", guide.on,
               "', which moves as one block: it must be another part, the one that touches");
-      // Nodes of a block that is held all the way are as those of a support.
+      // Nodes of a guide that is held in all motions count as nodes of a support.
       const auto held = [](const Guide::Along &along)
       { return along.motion == Guide::Motion::held; };
       const bool along_axis = joint.formulation != Formulation::plane;
@@ -104,7 +104,7 @@ void require_sides_free(const JointCase &joint, const std::vector<OwnPart> &part
 
 std::string other_units(const JointCase &joint, const std::vector<OwnPart> &parts)
 {
-   // Sizes that are 1000 apart, or nearly so.
+   // Sizes whose ratio is about 1000.
    constexpr double apart = 300;
    for (const JointCase::Face &face : joint.faces)
    {

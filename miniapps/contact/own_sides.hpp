@@ -16,7 +16,8 @@ void require_own_meshes(const JointCase &joint, const std::vector<OwnPart> &part
 void require_sides_free(const JointCase &joint, const std::vector<OwnPart> &parts,
                         const std::vector<std::array<cattaneo::ContactLine, 2>> &lines);
 
-/// A sentence if bodies that meet differ in size as metres and millimetres do; else empty.
+/// A sentence if sizes of bodies that meet differ by a factor of about 1000, as with metres and
+/// millimetres; else empty.
 std::string other_units(const JointCase &joint, const std::vector<OwnPart> &parts);
 
 } // namespace miniapp

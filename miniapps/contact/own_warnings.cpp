@@ -47,8 +47,8 @@ void warn_of_accuracy(double accuracy)
         "visible result");
 }
 
-/// An interference fit moves nodes by less than their distance; more is a body in a wrong
-/// place, or in other units.
+/// An interference fit moves nodes by less than their distance. A larger overlap means a body
+/// in a wrong place, or in other units.
 void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &interface)
 {
    if (interface.tied) { return; }
@@ -100,9 +100,9 @@ void warn_of_thin_wall(const SmoothSides &sides, const std::string &body, int or
    if (!sides.thinned) { return; }
    const WallOfChords &at = *sides.thinned;
    const double share = at.off / at.wall;
-   // In the mean along a chord the wall misses two thirds of what it misses at the middle. A
-   // membrane is as stiff as its wall is thick, bending goes with the third power: by twice the
-   // share at the middle, which is a twentieth here.
+   // In the mean along a chord the wall lacks two thirds of what it lacks at the middle.
+   // Membrane stiffness is in proportion to the thickness, bending stiffness to its third
+   // power: an error of twice the share at the middle, which is a twentieth here.
    if (std::abs(share) < 0.025) { return; }
    warn("body ", body, ": ", sides.free_chords,
         " straight edges of its free sides are chords of smooth curves and stay straight, ",
@@ -162,8 +162,8 @@ ChordalError warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p
    const ChordalError shares = chordal_error(reduction, p, w);
    const bool known = std::isfinite(shares.at_a_node);
    if (shares.at_a_node <= 0.05) { return shares; }
-   // Where nodes bear, and beside these: chords are off their curves between vertices alone,
-   // and it may be vertices alone that bear. If it is none of these, then anywhere.
+   // First where nodes carry forces, and beside these, because chords are off their curves only
+   // between vertices, and perhaps only vertices carry forces. If there is none, then anywhere.
    const InterfaceReport *worst = nullptr;
    double most = 0;
    for (const bool anywhere : {!known, true})
@@ -202,7 +202,7 @@ void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)
 {
    for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
    {
-      double reach = 0; // of linear elements with a node that is none of the line
+      double reach = 0; // of linear elements with a node that is not in the line
       for (const LineChain &chain : reduction.bodies[b].line.chains)
       {
          for (const LineElement &element : chain.elements)
@@ -252,7 +252,7 @@ void warn_of_large_displacements(OwnBodies &own, const SmallDisplacements &noted
 {
    for (const std::string &sentence : noted.warnings()) { warn(sentence); }
    Reduction &reduction = own.scene.reduction;
-   const Counters before = reduction.counters; // of the study, which asked for no fields
+   const Counters before = reduction.counters; // of the study, which requested no fields
    for (std::size_t b = 0; b < own.scene.bodies.size(); ++b)
    {
       const Eigen::VectorXd field =
@@ -313,7 +313,7 @@ SidesThatBear::SidesThatBear(const InterfaceReport &interface,
             const Eigen::Vector2d before = (place(k) - place(k - 1)).normalized(),
                                   after = (place(k + 1) - place(k)).normalized();
             const double turn = angle_of(before.dot(after));
-            // As much as a circle of twelve nodes.
+            // The angle between the edges of a circle of twelve nodes.
             if (turn < 30.5) { continue; }
             for (Eigen::Index i = 0; i < interface.nodes; ++i)
             {

@@ -11,11 +11,12 @@
 namespace miniapp
 {
 
-/// Warns of a shank that pushes its ends apart, most likely a direction the wrong way, or whose
-/// forces turn the bodies since its ends, of which the middles are given, do not lie along it.
+/// Warns of a shank that pushes its ends apart, most likely because its direction is reversed,
+/// and of one whose forces turn the bodies because the line between the given middles of its
+/// ends is not along its direction.
 void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
                   const Eigen::Vector2d &along, const std::array<Eigen::Vector2d, 2> &ends);
-/// Warns of bodies that overlap by more than the length of a node's part of the line.
+/// Warns of bodies that overlap by more than the length of line that belongs to a node.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);
 /// Warns of parts of an interface that no contact node represents.
@@ -26,15 +27,15 @@ void warn_of_loose_bodies(const OwnBodies &own);
 /// Warns of a stiffness with few correct digits.
 void warn_of_accuracy(double accuracy);
 
-/// Warns of what lies beyond small displacements: what was noted of the march, and rotations of
+/// Warns of displacements that are not small: those recorded in the march, and rotations of
 /// bodies with elements in its last state.
 void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
                                  const cattaneo::ContactState &last);
 /// Warns of a free side that keeps the chords of a curve where that changes the wall beside it
 /// by more than a fortieth.
 void warn_of_thin_wall(const cattaneo::SmoothSides &sides, const std::string &body, int order);
-/// Notes which sides were taken as smooth curves, and what that made of gaps; `sides`: of each
-/// body with a mesh.
+/// Notes which sides were taken as smooth curves, and the effect on gaps; `sides`: those of
+/// each body with a mesh.
 void note_smooth_sides(const JointCase &joint, const cattaneo::Reduction &reduction,
                        const std::vector<cattaneo::SmoothSides> &sides);
 /// Warns where chords of curved sides change the pressure of a node by more than a twentieth of
@@ -48,17 +49,17 @@ void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::Vect
 /// For each interface: is its second side a straight rigid line, or a half-plane?
 std::vector<bool> even_sides(const JointCase &joint);
 
-/// Displacements are small: a node presses along its own normal. One that bears although this
-/// is far from the rigid line's, on a side beyond a corner for instance, holds the body as no
-/// line could. Against anything else it is corners of either side that bear so.
+/// Displacements are small, so that a node presses along its own normal. If this normal is far
+/// from that of the rigid line, for instance beyond a corner of the side, the node holds the
+/// body as no line could. Against any other side this concerns corners of either side.
 class SidesThatBear
 {
 public:
-   /// On a straight rigid line through two points; without them on one that is parallel to the
-   /// side in the mean.
+   /// On a straight rigid line through two points; without points, on a line that is parallel
+   /// to the side in the mean.
    explicit SidesThatBear(const cattaneo::InterfaceReport &interface,
                           const std::vector<Eigen::Vector2d> &rigid_line);
-   /// At corners of the bodies' lines.
+   /// At the corners of the bodies' lines.
    SidesThatBear(const cattaneo::InterfaceReport &interface,
                  const std::vector<cattaneo::CondensedBody> &bodies);
    /// A state that the march has reached.
@@ -69,7 +70,8 @@ private:
    struct Node
    {
       Eigen::Index index = -1;
-      double angle = 0; ///< degrees between its normal and the line's; by which a corner turns
+      double angle =
+         0; ///< degrees between its normal and that of the line, or of the turn at a corner
       Eigen::Vector2d place{0, 0}; ///< its own; of the corner
    };
    const cattaneo::InterfaceReport &face_; ///< must outlive it
@@ -78,8 +80,8 @@ private:
    Node worst_;
 };
 
-/// Where the interval of a side of an interface ends within an element, which the contact does
-/// not have.
+/// Warns if the interval of a side of an interface ends within an element, which is then not
+/// part of the contact.
 void warn_of_cut_elements(const mfem::Mesh &mesh, const cattaneo::BoundaryPart &part,
                           const std::string &called, const std::string &name);
 

@@ -39,11 +39,11 @@ struct Sum
       lever += other.lever;
    }
    Vector2d about() const { return places ? Vector2d(middle / places) : middle; }
-   /// The largest of what is added and of what it comes to.
+   /// The largest of the terms and of their sum.
    double largest() const { return force.cwiseAbs().maxCoeff(); }
 };
 
-/// All that acts on one body.
+/// All forces on one body.
 class Forces
 {
 public:
@@ -53,7 +53,7 @@ public:
         plane_(joint.formulation == Formulation::plane), thickness_(joint.thickness_of(body)),
         state_(state), loads_(state.multipliers)
    {
-      // Of a bolt its force, and not what it would be if nothing gave way.
+      // For a bolt its force, not its pretension.
       const std::vector<double> shanks = report.shanks(state);
       for (std::size_t k = 0; k < shanks.size(); ++k)
       {
@@ -76,8 +76,8 @@ public:
    const std::vector<Named> &held() const { return named_; }
    const Sum &contact() const { return contact_; }
    bool known() const { return held_.K.size() > 0; }
-   /// All of them over the largest; NaN: nothing acts, or what supports bear is only known as
-   /// what is left over.
+   /// The sum of all forces over the largest; NaN: there is no force, or the forces of supports
+   /// are known only from the balance.
    double imbalance() const
    {
       if (held_.supports_left_out) { return none; }
@@ -90,19 +90,19 @@ public:
          largest = std::max(largest, one.sum.largest());
       }
       for (const Vector2d &place : held_.place) { reach = std::max(reach, place.norm()); }
-      // Torques that are round-off of forces at their levers are none.
+      // Torques that are round-off of forces at their levers count as zero.
       const double turns =
          torque_largest_ > 1e-12 * largest * reach ? std::abs(torque_) / torque_largest_ : none;
-      // Resultants that are round-off of the forces at the nodes are measured by these.
+      // The round-off of resultants is measured by the forces at the nodes.
       if (largest < 1e-12 * all.size) { largest = all.size; }
       if (largest == 0) { return turns; }
-      // NaN, where nothing turns, is no larger than a number.
+      // NaN, for bodies that do not turn, is not larger than any number.
       if (!plane_) { return std::fmax(std::abs(all.force[1]) / largest, turns); }
       return std::max(all.largest(), std::abs(all.moment) / reach) / largest;
    }
 
 private:
-   /// Resultants where they act on this body.
+   /// Resultants at the places where they act on this body.
    void add_interfaces()
    {
       tied_ = reduction_.tied_forces(state_.v, state_.w, state_.multipliers);
@@ -131,7 +131,7 @@ private:
             }
          }
       }
-      // They are among what holds the body.
+      // These dofs are listed among those that hold the body.
       contact_.force -= obstacles_.force;
       contact_.moment -= obstacles_.moment;
    }
@@ -167,7 +167,7 @@ private:
       {
          for (const int c : {0, 1}) { rest[line.nodes[i].dofs[c]] -= contact(i, c); }
       }
-      // A row that was eliminated has lost its force, which is then among the rest below.
+      // The force of an eliminated row is lost. It is then part of the remainder below.
       const auto lost = [&](int dof)
       {
          using Entries = std::decay_t<decltype(held_.K.view())>;
@@ -238,7 +238,7 @@ private:
       }
       const ContactLine &line = reduction_.torsion[body_].line;
       for (Index i = 0; i < line.size(); ++i) { rest[line.nodes[i].dofs[0]] -= contact[i]; }
-      // Those of two interfaces may balance each other.
+      // The forces of two interfaces may balance each other.
       add(contact.sum());
       torque_largest_ = std::max(torque_largest_, contact.lpNorm<1>());
       for (const Holding &one : around.holdings)
@@ -250,7 +250,7 @@ private:
             size += std::abs(rest[dof]);
          }
          add(torque);
-         Sum at; // no force, the place alone
+         Sum at; // no force, only the place
          for (const int dof : one.dofs) { at.add(around.place[dof], {0, 0}); }
          auto its = std::find_if(named_.begin(), named_.end(),
                                  [&](const Named &named)

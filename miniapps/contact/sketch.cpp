@@ -17,11 +17,11 @@ using nlohmann::ordered_json;
 namespace
 {
 
-/// States that are recovered, and elements that are filled, at most.
+/// Largest number of states that are recovered, and of elements that are filled.
 constexpr std::size_t most_states = 24;
 constexpr int most_elements = 5000;
 
-/// Five digits are enough to look at.
+/// Five digits are enough for a picture.
 double rounded_to_look_at(double x)
 {
    return std::strtod(text("%.5g", x).c_str(), nullptr);
@@ -75,7 +75,7 @@ Sketch::Sketch(Study &study, Scene &scene) : study_(study), scene_(scene)
 
 void Sketch::note(const ContactState &reached)
 {
-   // The last state of a march may come again.
+   // The last state of a march may be passed again.
    if (!wanted_ || (last_ && last_->state.time == reached.time)) { return; }
    last_ = Kept{rows_, reached};
    if (rows_++ % stride_ == 0) { kept_.push_back(*last_); }
@@ -128,7 +128,7 @@ void Sketch::report()
    if (!wanted_ || !last_) { return; }
    if (kept_.back().row != last_->row) { kept_.push_back(*last_); }
    Counters &spent = scene_.reduction.counters;
-   study_.counters -= spent; // what it costs is added
+   study_.counters -= spent; // its cost is added
    for (const Kept &one : kept_)
    {
       study_.sketch["frames"].push_back(frame(one.state, one.row));

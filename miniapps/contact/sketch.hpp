@@ -12,8 +12,8 @@ namespace miniapp
 
 /** The bodies of a march, deformed, for the page (--html): their vertices and elements, and at
     some increments the displacements of the vertices and von Mises' stress in the middle of
-   each element. Bodies of many elements are drawn by their boundary alone; nothing on several
-    ranks. */
+    each element. Of bodies with many elements only the boundary is drawn. There is no sketch on
+    several ranks. */
 class Sketch
 {
 public:

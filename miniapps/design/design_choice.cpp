@@ -21,12 +21,12 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Nodes along one line, which has an arc length of its own.
+/// Nodes along one line, with their own arc length.
 struct Line
 {
    Index first, nodes;
    std::string name; ///< before the names of its variables; empty if there is one line
-   double middle;    ///< its arc length; half of a line has it on its plane or axis of symmetry
+   double middle;    ///< its arc length; for half a line that of the plane or axis of symmetry
 };
 
 std::vector<Line> lines_of(const ReducedProblem &problem)
@@ -67,8 +67,8 @@ VectorXd from_the_middle(const ReducedProblem &problem)
    return x;
 }
 
-/// Bodies that nothing keeps from moving apart, all nodes alike: only differences of gaps
-/// count.
+/// Can the bodies move apart freely, by the same distance at all nodes? Then only differences
+/// of gaps count.
 bool moves_apart(const ReducedProblem &problem)
 {
    const VectorXd forces = problem.C() * VectorXd::Ones(problem.nodes());
@@ -144,7 +144,7 @@ DesignVariables choose_loads(DesignProblem &design, const DesignChoice &choice)
    return result;
 }
 
-/// Friction of zones of equal lengths of each line, which begins as the problem has it.
+/// Friction in zones of equal length of each line. It begins with the value of the problem.
 DesignVariables choose_coat(DesignProblem &design, const DesignChoice &choice)
 {
    const ReducedProblem &problem = design.problem;
@@ -243,7 +243,8 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
    const VectorXd x = from_the_middle(given);
    const Index n = given.nodes();
    const bool free = choice.profile == "free";
-   // Where bodies can move apart a node that touches stays: only differences of gaps count.
+   // If bodies can move apart, a node that touches keeps its gap, because only differences of
+   // gaps count.
    const bool apart = moves_apart(given);
    DesignVariables result;
    MatrixXd G = MatrixXd::Identity(n, n);
@@ -277,9 +278,10 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
    }
    design.variables = cattaneo::gap_variables(G);
    bound(design, G.cols(), 0, choice.most);
-   // A flat start is crowned. A start with a gap may also be too round: other nodes come before
-   // the one that stays, so that no shape is left out. For supported bodies their gaps decide.
-   // An odd power tilts the profile to one side or the other.
+   // A flat start can only be crowned. A start with a gap may also be too round: then other
+   // nodes may touch before the one that keeps its gap, so that no shape is excluded. For
+   // supported bodies the gaps themselves decide. An odd power tilts the profile to either
+   // side.
    for (Index j = 0; j < G.cols(); ++j)
    {
       const bool leans = !free && odd[j];

@@ -15,11 +15,12 @@ struct DesignChoice
    /// each line; "rounded", flat in the middle and a parabola on either side.
    std::string profile = "free";
    std::vector<double> powers = {2, 4}; ///< of the crown, whole numbers from 1
-   /// Most that a gap changes by; coefficient of each power at the ends of the line; 1/R.
+   /// Largest change of a gap; largest coefficient of each power at the ends of the line;
+   /// largest 1/R.
    double most = 1;
-   double curvature = std::numeric_limits<double>::quiet_NaN(); ///< most of a gap; NaN: any
-   bool begins_flat = true;  ///< a gap is taken off nowhere, it is only crowned
-   std::string loads;        ///< patterns whose sum stays, by names with semicolons between
+   double curvature = std::numeric_limits<double>::quiet_NaN(); ///< largest gap; NaN: no limit
+   bool begins_flat = true; ///< the gap becomes smaller nowhere
+   std::string loads; ///< names, separated by semicolons, of patterns whose sum is constant
    std::vector<double> coat; ///< least and most friction
    int zones = 4;            ///< of friction, of equal lengths, of each line
 
@@ -30,7 +31,7 @@ struct DesignChoice
    }
 };
 
-/// The variables of a design by name, where they begin, and what is printed of them at a value.
+/// The variables of a design: names, starting values, and printed values.
 struct DesignVariables
 {
    std::vector<std::string> names;
@@ -39,7 +40,7 @@ struct DesignVariables
    Eigen::VectorXd before;
 };
 
-/** Sets variables, bounds and limits of the design, whose problem and cases are known. Each
+/** Sets variables, bounds and limits of the design. Its problem and cases must be known. Each
     line of contact has its own variables, measured from its middle, which for half a model lies
     on the plane or axis of symmetry. InputError naming the option. */
 DesignVariables choose_variables(cattaneo::DesignProblem &design, const DesignChoice &choice);

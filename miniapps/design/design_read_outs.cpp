@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// The history of a case with what its variables add.
+/// The history of a case with the changes by the variables.
 LoadHistory with_variables(const DesignProblem &problem, const DesignCase &of,
                            const VectorXd &x)
 {
@@ -32,9 +32,9 @@ LoadHistory with_variables(const DesignProblem &problem, const DesignCase &of,
 /// The result of a case, by a march alone.
 struct Marched
 {
-   double peak = 0, lost = 0; ///< at the points that count, and between them
-   double density = 0;        ///< the most that a node loses per area
-   VectorXd densities;        ///< of all that have a weight
+   double peak = 0, lost = 0; ///< in the states at the points that count, and between them
+   double density = 0;        ///< largest loss of a node per area
+   VectorXd densities;        ///< of all nodes with a weight
    ContactState at_peak;
 
    double of(const std::string &goal) const
@@ -143,7 +143,7 @@ void report_cases(Study &study, const DesignProblem &problem, const DesignReport
                     after = march_case(problem, report.x, load_case, settings);
       study.row(table, {load_case.name, before.peak, after.peak, before.lost, after.lost,
                         before.density, after.density});
-      if (before.at_peak.p.size() > 0) // where the first start has an equilibrium
+      if (before.at_peak.p.size() > 0) // if the first start has an equilibrium
       {
          pressures.add(load_case.name + ", before", x, tractions(flat, before.at_peak.p),
                        "dashed");
@@ -190,7 +190,7 @@ void draw_lines(Study &study, const DesignProblem &problem, const DesignReport &
       panel.add("", {report.x[j] + variables.before[j]}, {std::abs(report.objective)},
                 "points");
    }
-   // A loss that comes to nothing is measured by what it was.
+   // If the loss goes to zero, its change is measured by the loss at the start.
    const double size =
       std::max(std::abs(report.objective), std::abs(report.objective_at_start));
    study.value("best_of_lines", (report.objective - best) / size,

@@ -8,27 +8,27 @@
 namespace miniapp
 {
 
-/// Positions along the contact from the middle of it.
+/// Positions along the contact, from its middle.
 Eigen::VectorXd places(const cattaneo::ReducedProblem &problem);
 
-/// Energy that each node that has a weight loses per area, from the first state to the last.
+/// Energy per area that each node with a weight loses from the first state to the last.
 std::vector<cattaneo::Response> densities(const cattaneo::ReducedProblem &problem,
                                           const cattaneo::Responses &of,
                                           const std::vector<std::size_t> &states);
 
-/// Where the march of a case without equilibrium, the first of them, came to its event:
-/// `event_time` and `event_loads`.
+/// Writes `event_time` and `event_loads` of the first case whose march found no equilibrium.
 void report_event(Study &study, const cattaneo::DesignProblem &problem,
                   const Eigen::VectorXd &x, cattaneo::MarchSettings settings);
 
-/// All cases before and after, marched: a table `cases`, the pressures where they are largest
-/// and, if the goal is the energy that a node loses, that of all nodes.
+/// Marches all cases before and after the design. Writes a table `cases`, the pressures in the
+/// state with the largest one and, if the goal is the energy loss of a node, the losses of all
+/// nodes.
 void report_cases(Study &study, const cattaneo::DesignProblem &problem,
                   const cattaneo::DesignReport &report, const DesignVariables &variables,
                   const std::string &goal, const cattaneo::MarchSettings &settings);
 
-/// The goal along each variable through the optimum, where limits hold: it is to have its
-/// least value there.
+/// Draws the goal along each variable through the optimum, as far as limits allow. It should
+/// have its least value there.
 void draw_lines(Study &study, const cattaneo::DesignProblem &problem,
                 const cattaneo::DesignReport &report, const DesignVariables &variables,
                 const std::string &goal, const cattaneo::MarchSettings &settings, int steps);

@@ -16,8 +16,7 @@ using Eigen::Index;
 namespace
 {
 
-/// The point of the history from which on its points count: the first one that --from does not
-/// leave out.
+/// The first point of the history that counts, which --from gives.
 double first_point(const DesignScene &chosen, const LoadHistory &history)
 {
    const Index points = history.times.size();
@@ -57,7 +56,7 @@ ReducedProblem make_problem(Study &study, const DesignScene &chosen)
       planes.material = Material{8 / M_PI * 0.91, 0.3, PlaneState::strain};
       planes.grid = grid;
       scene = make_scene(planes);
-      scene.problem().B().setZero(); // equal half-planes: what is there is round-off
+      scene.problem().B().setZero(); // equal half-planes: the value is round-off
       join_coupling(scene.problem());
    }
    else

@@ -15,16 +15,16 @@ struct DesignScene
    std::string goal = "pressure";
    std::string file;                         ///< of a saved problem, in place of the scene
    std::string history;                      ///< of its loads, as statements
-   std::vector<double> loads = {1}, weights; ///< P of each case, and what it counts
+   std::vector<double> loads = {1}, weights; ///< P of each case, and its weight
    double shear = 0;                         ///< amplitude of Q/fP
-   double friction = none;                   ///< none: the file's, of a scene 0.3
+   double friction = none;                   ///< none: that of the file; for a scene 0.3
    double from = none; ///< time of the history from which on its points count; none: the last
    int nodes = 65;
 
    bool cycles() const { return goal != "pressure"; }
 };
 
-/// The contact before its design. InputError naming the option, as that of the cases.
+/// The contact before its design. InputError naming the option; so for the cases.
 cattaneo::ReducedProblem make_problem(Study &study, const DesignScene &chosen);
 std::vector<cattaneo::DesignCase> make_cases(const DesignScene &chosen,
                                              const cattaneo::ReducedProblem &problem);

@@ -31,7 +31,7 @@ constexpr NamedCriterion named_criteria[] = {
 class Specimen
 {
 public:
-   /// At every @a step-th instant.
+   /// At each @a step-th instant.
    Specimen(const Pad &pad, const SolvedPad &solved, std::size_t step)
       : constraint_(out_of_plane_constraint(pad.material.poisson, pad.plane_stress))
    {
@@ -58,7 +58,8 @@ public:
    StressCycle averaged(double x, double depth) const
    {
       StressCycle cycle = StressCycle::Zero(static_cast<Index>(fields_.size()), 4);
-      // Stresses change fastest at the surface: parts of growing size, each by Gauss' rule.
+      // Stresses change fastest at the surface, so the depth is cut into parts of growing size,
+      // each with Gauss' rule.
       const mfem::IntegrationRule &rule = mfem::IntRules.Get(mfem::Geometry::SEGMENT, 3);
       double from = 0;
       for (const double to : {1.0 / 16, 1.0 / 4, 1.0})
@@ -169,7 +170,8 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
          const auto begin = shares[c].begin() + (right ? middle + 1 : 0),
                     end = right ? shares[c].end() : shares[c].begin() + middle + 1;
          const std::size_t k = std::max_element(begin, end) - shares[c].begin();
-         // The summit lies between the neighbours of the largest; it is narrowed by thirds.
+         // The maximum lies between the neighbours of the largest value. The interval is
+         // reduced by thirds.
          double low = places[k == 0 ? k : k - 1],
                 high = places[std::min(k + 1, places.size() - 1)];
          const auto share = [&](double x)

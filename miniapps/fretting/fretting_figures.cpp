@@ -40,7 +40,7 @@ std::vector<double> with_design(std::vector<double> frictions, double design)
 
 using Curve = std::function<std::pair<double, double>(double friction, int i)>;
 
-/// A curve for each friction coefficient, points 0 … n; that of the design is named so.
+/// A curve for each friction coefficient, points 0 … n; the curve of the design has this name.
 Panel &add_curves(Panel &panel, const std::vector<double> &frictions, double design, int n,
                   const Curve &at)
 {
@@ -63,7 +63,7 @@ void mark(Panel &panel, const std::string &name, double x, double y)
    panel.point(name, x, y, "star");
 }
 
-/// What acts on the specimen at peak load, before all that is scaled.
+/// The actions on the specimen at peak load, before the scaled curves.
 void draw_tractions(Study &study, const Pad &pad)
 {
    const HertzSurface at(pad);
@@ -87,7 +87,8 @@ void draw_tractions(Study &study, const Pad &pad)
    slip(at.shift + at.stick, a, "slip");
 }
 
-/// Pressure of a flat pad with round edges, and what its edge makes of it (thesis appendix A).
+/// Pressure of a flat pad with round edges, and the pressure of its edge field (thesis appendix
+/// A).
 void draw_profile(Study &study, const Pad &pad)
 {
    const FlatRoundedContact contact =
@@ -168,7 +169,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
                  const double c = 0.005 * i;
                  return std::pair{c, crack_intensity(unit, c) / std::sqrt(unit.k_t)};
               });
-   // K_N stays: with R only the end of the cycle changes at which the crack is pressed shut.
+   // K_N is constant. With R only that end of the cycle changes at which the crack is pressed
+   // shut.
    Panel &ratios = study.lines("trajectory_ratios", exact_text("Open part of ΔK_I, f = ", f),
                                "crack depth c/d", "ΔK_I/√(K_N K_T d)");
    for (const double R : {-1.0, -0.5, 0.0, 0.3, 0.6})
@@ -217,7 +219,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
       study.lines("diagram", "Kitagawa-Takahashi: " + to_string(r.threshold.verdict),
                   "crack depth c/a0", "driving force/ΔK_th");
    diagram.say("scale", "loglog");
-   // Where the crack is no longer small against the contact the field is another one.
+   // A crack that is no longer small compared with the contact is in another field.
    const double limit = 0.25 * width / r.critical_length;
    if (width > 0 && limit < 10) { diagram.say("shade", text("%g,10,too deep", limit)); }
    CrackedEdge alone = judged.problem.crack;
@@ -247,7 +249,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
 namespace
 {
 
-/// Between commas; an empty one is one too.
+/// The cells between commas; an empty cell counts too.
 std::vector<std::string> cells_of(const std::string &line)
 {
    std::vector<std::string> cells;
@@ -320,9 +322,9 @@ struct Record
    }
 };
 
-/** The level of a measure that tells tests that broke from those that lasted with the fewest on
-    its wrong side; of several the one in the widest gap by ratio, in the middle of it. NaN
-    where no level is better than to call them all one. */
+/** The level of a measure that divides broken from lasting tests with the fewest tests on its
+    wrong side. Of several such levels it is the middle of the widest gap (by ratio). NaN if no
+    level is better than calling all tests broken, or all lasting. */
 struct DividingLevel
 {
    double level = none;
@@ -396,7 +398,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
       Panel *panel; ///< over life
       bool divides; ///< is its dividing level drawn there?
       double (*of)(const FrettingReport &);
-      std::vector<std::pair<double, bool>> tests = {}; ///< with whether they broke
+      std::vector<std::pair<double, bool>> tests = {}; ///< and whether the test broke
    };
    using Of = const FrettingReport &;
    Measure measures[] = {
@@ -476,7 +478,8 @@ void correlate(Study &study, const std::string &file, const Pad &common,
       const double threshold =
          criteria.mode_two_ratio * properties.threshold / mode_two_range(1);
       level(mode_two, "mode II threshold", threshold);
-      // At a higher load ratio the range falls, but not by more than to the same largest value.
+      // At a higher load ratio the range falls, at most until the largest value of the cycle is
+      // the same.
       for (const double R : ratios[material])
       {
          const double measured_at = properties.threshold_ratio;

@@ -59,7 +59,7 @@ std::string number(double value, const std::string &unit = "")
    return text("%.4g", value) + (unit.empty() ? "" : " " + unit);
 }
 
-/// A page that says what each of its numbers means; they go to the results as well.
+/// A page with the meaning of each of its numbers, which go to the results as well.
 class Page
 {
 public:

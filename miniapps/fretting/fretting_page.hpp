@@ -5,11 +5,11 @@
 namespace miniapp
 {
 
-/// The assessment of a pad, a page that says what each of its numbers means.
+/// The assessment of a pad, as a page with the meaning of each number.
 void print_page(Study &study, const Pad &pad, const PadContact &contact,
                 const JudgedEdge &judged, const cattaneo::fretting::FrettingSettings &criteria);
 
-/// And what the contact that was solved for it came to.
+/// The same with the results of the finite element contact.
 void print_solution(Study &study, const SolvedPad &solved);
 
 } // namespace miniapp

@@ -12,8 +12,8 @@ class HertzSurface
 {
 public:
    explicit HertzSurface(const Pad &pad);
-   /// Is the stick zone within the contact? Else too large a bulk stress makes an edge slip
-   /// against the shear, and there is no closed form.
+   /// Is the stick zone within the contact? If not, the bulk stress is so large that an edge
+   /// slips against the shear, and there is no closed form.
    bool valid() const;
    double pressure(double x) const;
    double shear(double x) const;  ///< on the specimen, along x

@@ -80,8 +80,8 @@ namespace
 {
 
 /** Lines of a grid for a contact with a flat: half of @a elements, of one size, on each rounded
-    part of width w and as far into the flat, and a little beyond; to them come those between,
-    which grow toward the middle. */
+    part of width w and as far into the flat, and a little beyond. Elements between these parts
+    are added, and grow toward the middle. */
 std::vector<double> flat_grid(double flat, double half_width, int elements, double growth)
 {
    const double w = half_width - flat, inner = std::max(flat - w, 0.0), outer = flat + 1.67 * w;
@@ -116,7 +116,8 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    options.load = pad.normal;
    options.bulk = pad.bulk_or_none() != 0;
    options.bulk_pad = pad.bulk_pad != 0;
-   // The far size costs the bulk's equilibrium digits; the contact does not feel it.
+   // A larger domain would cost digits of the equilibrium of the bulk stress; the contact does
+   // not depend on it.
    options.domain = 1e3;
    options.validate();
    const int elements = (pad.nodes - 1) / pad.order;
@@ -130,7 +131,7 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    problem.gap =
       (problem.position.col(0).array().abs() - flat).max(0).square() / (2 * pad.radius);
 
-   /// The normal load, and a share of the peak of what varies.
+   /// The normal load, and a share of the peak of the varying loads.
    const auto loads = [&](double share)
    {
       NamedLoads at = {{"P", 1}, {"Q", share * (pad.shear / pad.normal)}};
@@ -179,7 +180,7 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
          std::min(slip_zone(near_edge(edges[e])), edges[e].slip_zone) >= 2 * solved.spacing;
    }
    solved.positions = problem.position.col(0);
-   // Once round the steady cycle, in eighths of its ranges.
+   // One steady cycle, in eighths of its ranges.
    for (int k = 1; k <= 16; ++k)
    {
       const double share = std::abs(1 - k / 8.0);
@@ -213,8 +214,8 @@ void compare(Study &study, const Pad &pad, const PadContact &closed_form,
    const bool hertz = std::isnan(pad.flat);
    const double shift = a * bulk * (pad.shear < 0 ? -1 : 1) * M_PI * a /
                         (8 * pad.friction * pad.normal); // of a Hertz contact
-   // Closed forms have no spread: what differs is the mesh's, edges by the error of their
-   // read-out.
+   // Closed forms have no spread. Differences come from the mesh; those of edges are the error
+   // of their positions.
    study.compare("half width a, mm", a, {0, solved.trailing.edge.position.error},
                  solved.half_width);
    const auto error = [](const FittedIntensity &fitted)
@@ -256,8 +257,8 @@ void compare(Study &study, const Pad &pad, const PadContact &closed_form,
 
 JudgedEdge judge(const Pad &pad, const PadContact &contact, const FrettingSettings &criteria)
 {
-   // Two edges that feel the same differ by the round-off of their read-outs; the trailing one
-   // then stands for both, as it does where closed forms make them equal.
+   // Two equal edges differ by the error of their positions. The trailing one then represents
+   // both, as it does if closed forms make them equal.
    constexpr double alike = 1e-6;
    JudgedEdge worst;
    for (const bool trailing : {true, false})

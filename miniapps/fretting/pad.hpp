@@ -29,11 +29,11 @@ struct Pad
 
    double bulk_or_none() const { return std::isnan(bulk) ? 0 : bulk; }
    double modulus() const; ///< E*
-   /// Half width of the contact under a normal force, per unit thickness, alone.
+   /// Half width of the contact under a normal force alone (per unit thickness).
    double half_width_under(double load) const;
 };
 
-/// Both edges of the contact, where they are known.
+/// Both edges of the contact, if they are known.
 struct PadContact
 {
    double half_width = 0.0, rounded_width = 0.0, k_n = 0.0;
@@ -41,21 +41,22 @@ struct PadContact
    double stress_gradient = 0.0;
 };
 
-/// The loads make the whole contact slide: an outcome, and of a test record one that is
+/// The loads make the whole contact slide. This is an outcome; a test record with such loads is
 /// refused.
 struct PadSlides : cattaneo::InputError
 {
    using cattaneo::InputError::InputError;
 };
 
-/// From closed forms. InputError for what does not go together, PadSlides for loads that slide.
+/// From closed forms. InputError for options that contradict each other, PadSlides if the pad
+/// slides under the loads.
 PadContact calibrate(const Pad &pad);
 
 /// One edge of the finite element contact over one steady cycle.
 struct PadEdge : cattaneo::fretting::SolvedEdge
 {
    double reversed_slip_zone = 0.0; ///< computed, back at peak load
-   bool resolved = false; ///< fewer spacings than two do not carry a slip zone, nor its energy
+   bool resolved = false; ///< less than two spacings resolve neither a slip zone nor its energy
 };
 
 /// Contact forces and bulk stress on the specimen at an instant of the steady cycle.
@@ -76,7 +77,7 @@ struct SolvedPad
    double seconds = 0.0;
    cattaneo::Counters counters;
 
-   /// Its intensities in place of the closed forms.
+   /// Replaces the intensities of closed forms by the computed ones.
    PadContact in_place_of(PadContact closed_form) const;
 };
 

@@ -46,7 +46,7 @@ BoltedLoop pull(Run &run, std::vector<NamedLoads> points, double load, int cycle
    {
       if (observe) { observe(now); }
       cycle.note(now);
-      const double pieces = now.time - tightened; // of the cycles; whole at their ends
+      const double pieces = now.time - tightened; // of the cycles, complete at their ends
       if (pieces < 0 || std::abs(pieces - std::round(pieces)) >= 1e-12) { return; }
       const int piece = static_cast<int>(std::round(pieces));
       if (piece == 0) { loop.tightened = now; }

@@ -24,8 +24,8 @@ struct Joint
    double P0() const { return options.widths[0]; }
    double unit() const { return P0() * P0(); } ///< of energies, over E'
 
-   /// Multipliers of the pinch pressures: several bolts are first drawn together to the snug
-   /// pressure, then tightened one after another.
+   /// Multipliers of the pinch pressures: several bolts are first tightened together to the
+   /// snug pressure, then one after another to the full one.
    std::vector<cattaneo::NamedLoads> tightening(const std::vector<int> &order, double width,
                                                 double pressure = 1) const;
 };
@@ -65,7 +65,7 @@ BoltedLoop pull(Run &run, std::vector<cattaneo::NamedLoads> points, double load,
 /// `limit`.
 double touch_load(cattaneo::FrictionSolver &solver, cattaneo::NamedLoads loads, double limit);
 
-/// The order of tightening: numbers of bolts from 1, orders separated by a slash.
+/// The orders of tightening, separated by slashes, as numbers of bolts from 1.
 std::vector<std::vector<int>> orders(const std::string &text, const std::vector<double> &bolts);
 
 /// Relative size below which a force counts as round-off of its neighbours.

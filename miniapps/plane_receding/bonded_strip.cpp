@@ -21,8 +21,8 @@ Index nodes_before(const VectorXd &x, double at)
 namespace
 {
 
-/// Traction ratio of the bonded strip for several n (thesis figure 5.2), and where its kind
-/// changes.
+/// Traction ratio of the bonded strip for several n (thesis figure 5.2), and the overhangs at
+/// which its kind changes.
 void bonded_strips(Study &study, const RecedingOptions &options, const ReducedProblem &problem,
                    const std::vector<double> &overhangs, Panel &panel)
 {
@@ -58,7 +58,7 @@ void bonded_strips(Study &study, const RecedingOptions &options, const ReducedPr
                          return figures;
                       });
    };
-   // Where the largest ratio leaves the corner.
+   // The overhang from which on the largest ratio is not at the corner.
    study.value("rising_from",
                changing_from(0.05, 0.5,
                              [](const BondedTractions &b)

@@ -8,7 +8,7 @@
 namespace miniapp
 {
 
-/// Nodes before a place of the line.
+/// Number of nodes before a place on the line.
 Eigen::Index nodes_before(const Eigen::VectorXd &x, double at);
 
 /** The bonded strip of an overhang (thesis 5.2): its corner, the friction for full adhesion,

@@ -29,7 +29,7 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
                   of.counters.limit_solves, of.iterations, of.seconds));
    if (what == "friction" || find == "load")
    {
-      // A limit that was not found proves nothing. An unlimited one is proven up to `lower`.
+      // If a limit was not found, nothing is proven. An unlimited load is proven up to `lower`.
       const bool bounds = found || of.status == LimitStatus::unlimited;
       results["bound_lower"] = bounds ? of.lower : std::nan("");
       results["bound_upper"] = bounds ? of.upper : std::nan("");
@@ -40,8 +40,8 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
    results[what + "_limit_starts"] = of.starts;
    if (what == "friction") { study.say("      " + of.starts); }
    const double share = share_of_ends(problem, stuck_forces(problem, cycle), of, load_factor);
-   // The report says where the mesh decides a limit; that of the punch is known to do so below
-   // the friction that its corners ask for.
+   // The report says where the mesh decides a limit. For the punch this is known to be so below
+   // the friction that its corners need.
    std::string why = of.of_the_mesh;
    if (why.empty() && standard && f < williams_ratio[0])
    {
@@ -198,7 +198,7 @@ ReducedProblem Shakedown::with_B_transposed() const
 {
    ReducedProblem other = problem;
    other.B() = problem.B().transpose().eval();
-   complete(other); // rigid motions of the bodies do not belong to this matrix
+   complete(other); // the rigid motions of the bodies are not those of this matrix
    return other;
 }
 
@@ -251,7 +251,7 @@ void Shakedown::ratios()
    {
       limit.cycle = other.cycle = cycle_of(problem, R);
       set_friction(limit.reduced, f);
-      // One of them is often the limit that was just found.
+      // Often one of these limits was just found.
       const bool known = R == reversal && f == friction;
       const double load = known ? most.limit : largest(limit).limit;
       std::vector<ordered_json> row = {R, f, load / f};

@@ -104,7 +104,7 @@ void Shakedown::draw_optimal()
       band.add("permissible", x, traction((f * p + q).rowwise().minCoeff()), "band");
    }
    band.add("optimal", x, VectorXd(-traction(residual_q)), "dashed");
-   // Tractions are singular at the ends: they are not the picture's scale.
+   // Tractions are singular at the ends, so the end values do not set the scale of the picture.
    for (Panel *panel : {&residual, &band}) { panel->say("inside", "0.1"); }
 }
 
@@ -155,7 +155,7 @@ void Shakedown::marches()
          ended.push_back(start);
          if (ended.size() == 1)
          {
-            // Its outcome is that of the run, whose limits have a status of their own.
+            // The outcome of the march is that of the run. The limits have their own status.
             study.code = 2;
             results["status"] = name(run.status);
             results["message"] = run.message;

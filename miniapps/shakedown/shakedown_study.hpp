@@ -17,8 +17,8 @@
 namespace miniapp
 {
 
-/// The study of the miniapp shakedown: a contact, what is stuck of it, its limits, and marches
-/// beside them.
+/// The study of the program shakedown: a contact, its stuck state, its limits, and marches to
+/// compare.
 class Shakedown
 {
 public:
@@ -31,33 +31,35 @@ private:
 
    void options();
    void prepare();
-   /// The law of friction that is asked for, and what cannot be asked for with it.
+   /// Sets the law of friction of the options, and refuses options that do not go with it.
    void take_law();
    /// The law of friction in words.
    std::string law() const;
-   /// Leaves in the problem the nodes that stay closed in marches at this load.
+   /// Keeps in the problem only the nodes that stay closed in marches at this load.
    void keep_closed(double load_factor);
-   /// Data that follow from the problem.
+   /// Computes the data that follow from the problem.
    void set_up();
-   /// The limit; if it alone is asked for, on the nodes that stay closed at the limit itself.
+   /// The limit. If nothing else is requested, it is computed for the nodes that stay closed at
+   /// the limit itself.
    void largest_of_closed();
    cattaneo::LoadCycle cycle_of(const cattaneo::ReducedProblem &of, double R) const;
-   /// The largest load of a problem, and its smallest friction for the loads. Ctrl-C leaves the
-   /// study with what is proven by then.
+   /// The largest load of a problem, and its smallest friction for the loads. Ctrl-C ends the
+   /// study with the bounds that are proven so far.
    cattaneo::LimitReport largest(const cattaneo::LimitProblem &of,
                                  const cattaneo::LimitReport *start = nullptr);
    cattaneo::LimitReport smallest(const cattaneo::LimitProblem &of);
    cattaneo::LimitReport counted(cattaneo::LimitReport report);
    /// Leaves the study.
    [[noreturn]] void stopped(const std::string &message);
-   /// A limit with its bounds, and whether it is one of the bodies. `what` is load or friction.
+   /// Reports a limit with its bounds, and whether it is a limit of the bodies or of the mesh.
+   /// `what` is load or friction.
    void report(const std::string &what, const cattaneo::LimitReport &of, double load_factor,
                double f);
    void monolith();
-   /// Where between the nodes the ratio of tractions is largest: the summit of the parabola
-   /// through the node that it is largest at and its neighbours.
+   /// The place between nodes where the ratio of tractions is largest: the maximum of the
+   /// parabola through the node with the largest ratio and its neighbours.
    double largest_inside(const cattaneo::Adhesion &at) const;
-   /// The load up to which the singular corner asks for more friction than any place inside.
+   /// The load up to which the singular corner needs more friction than any place inside.
    void leave_corner(double opens);
    /// Friction for full adhesion against the load (thesis figure 4.3).
    void draw_adhesion(double opens, const char *by);
@@ -78,8 +80,8 @@ private:
    /// Checks the nodes that are taken to stay open: their gaps at the limit, and marches of the
    /// whole contact in which they are free to close.
    void check_open_nodes();
-   /// λ1: what is proven, if it is asked for or costs nothing, and what marches from many
-   /// starts show.
+   /// Reports the proven bound of λ1, if it is requested or costs nothing, and the result of
+   /// marches from many starts.
    void lower();
    /// Computes the bound of λ1 that is proven except for slip at nodes near the ends.
    void lower_apart(const cattaneo::LimitSettings &settings);
@@ -94,7 +96,7 @@ private:
    /// The limits of another punch, as a row of a table.
    void repeat(const char *table_name, const PunchOptions &other);
 
-   /// A label of the punch, in units a = P = E' = 1, or of a saved problem, in its own.
+   /// A label: for the punch in units a = P = E' = 1, for a saved problem in its own units.
    const char *of_punch(const char *label, const char *otherwise) const
    {
       return saved ? otherwise : label;
@@ -116,7 +118,7 @@ private:
    bool coulomb = true;   ///< its law of friction is Coulomb's
    bool standard = false; ///< the punch whose reference values are known
    Scene scene;
-   cattaneo::ReducedProblem problem; ///< of the nodes that stay closed, if asked for
+   cattaneo::ReducedProblem problem; ///< of the nodes that stay closed, if requested
    cattaneo::ReducedProblem whole;   ///< with the others, …
    cattaneo::ReducedProblem gapped;  ///< … and as it was given, with its gap
    cattaneo::ClosedContact part;

@@ -25,8 +25,8 @@ void add_bounds(Panel &panel, const VectorXd &x, double f, const MatrixXd &q, co
    panel.say("inside", "0.1"); // singular at the ends
 }
 
-/// First and last place among these nodes between which y is positive, linear between nodes;
-/// not numbers if it is so nowhere.
+/// First and last place among these nodes at which y is positive, linear between nodes; NaN if
+/// it is positive nowhere.
 std::pair<double, double> exceeded(const VectorXd &x, const NodeList &nodes, const VectorXd &y)
 {
    double from = none, to = none;

@@ -44,8 +44,8 @@ void warn_of_depth(const ReducedProblem &problem, const VectorXd &depth,
 namespace
 {
 
-/// Where a line of values crosses zero from positive to not, going outward from a node; the end
-/// of the chain if it does not.
+/// The place, outward from a node, at which positive values first fall to zero; the end of the
+/// chain if they do not.
 double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
 {
    for (Index i = from; i + way >= 0 && i + way < s.size(); i += way)
@@ -58,7 +58,7 @@ double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
    return s[way > 0 ? s.size() - 1 : 0];
 }
 
-/// Pressure amid a zone, between the nodes on both sides of its middle.
+/// Pressure in the middle of a zone, from the nodes on both sides of the middle.
 double pressure_amid(const ReducedProblem &problem, const VectorXd &p, const Zone &zone)
 {
    const VectorXd &s = problem.arc_length;
@@ -69,8 +69,8 @@ double pressure_amid(const ReducedProblem &problem, const VectorXd &p, const Zon
    return p[i] + (p[i + 1] - p[i]) * (middle - s[i]) / (s[i + 1] - s[i]);
 }
 
-/// The widest zone that sticks; of those that are equal to round-off the one with the largest
-/// pressure amid it.
+/// The widest stick zone. Of zones that are equally wide within round-off it is the one with
+/// the largest pressure in its middle.
 Zone widest_stick(const ReducedProblem &problem, const VectorXd &p, std::vector<Zone> all)
 {
    const Zone widest = stick_zone(problem, all);
@@ -109,7 +109,7 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    const ReducedProblem &problem = scene.problem;
    const VectorXd p = tractions(problem, end.contact.p);
    const Zone stick = widest_stick(problem, p, zones(problem, end.unworn, end.range));
-   // If there are several lines, the one with the widest stick zone.
+   // If there are several lines, the line with the widest stick zone.
    Index begin = 0, nodes = problem.nodes();
    for (const ContactChain &chain : problem.chains)
    {

@@ -17,16 +17,18 @@ namespace
 
 constexpr double modulus = 4 / M_PI; ///< E*, with which a = 1 under P = 1 if R = 1
 
-/** How far a pad with the half-width `flat` between radii 1 wears in the end, where |x| < c
-    sticks: slipping parts carry nothing. The load that c does not carry by itself, the share
-    `shear` of P = 1, presses as under a rigid punch. Contact grows as a row of such punches
-    (Jäger 1998), dP = E* a arccos(flat/a) da, each of which lifts the surface beyond it by
-    (2/πE*) arccosh(x/a) dP; at the border what both lift is the same. */
+/** The half-width to which a pad with the flat half-width `flat` between radii 1 is worn in the
+    end, if |x| < c sticks and slipping parts carry no force. The share `shear` of P = 1, which
+    the unworn contact of half-width c does not carry, presses on it as under a rigid punch.
+    Contact grows as a row of such punches (Jäger 1998), dP = E* a arccos(flat/a) da, each of
+    which lifts the surface beyond it by (2/πE*) arccosh(x/a) dP. At the border both lifts are
+    equal. */
 double worn_extent(double flat, double c, double shear)
 {
    const auto left = [&](double x) // of the gap that wear must take, over 2/πE*
    {
-      // The integrand ends like a root: an angle has no corner there.
+      // The integrand ends like a square root. With an angle as the variable it is smooth
+      // there.
       double gap = 0;
       constexpr int steps = 400;
       for (int k = 0; k < steps; ++k)
@@ -86,7 +88,7 @@ WearCase pad_on_half_plane(Study &study, const WearingPad &pad, double shear, do
    Scene scene = make_scene(planes);
    WearCase result;
    ReducedProblem &problem = result.problem = scene.problem();
-   problem.B().setZero(); // equal half-planes: what is there is round-off
+   problem.B().setZero(); // equal half-planes: the value is round-off
    join_coupling(problem);
    set_friction(problem, friction);
    const VectorXd x = problem.position.col(0);

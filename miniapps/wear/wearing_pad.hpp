@@ -16,7 +16,7 @@ struct WearCase
 {
    ReducedProblem problem;
    LoadHistory history;
-   double middle = 0; ///< of what is symmetric, arc length
+   double middle = 0; ///< arc length of the point of symmetry
 };
 
 /// A pad on a half-plane of the same material.
