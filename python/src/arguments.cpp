@@ -91,7 +91,7 @@ nb::object array_of(nb::handle object, const std::string &what, const std::strin
    return array;
 }
 
-/// Doubles in C order, and kept alive.
+/// Doubles in C order, which are kept alive.
 struct Doubles
 {
    nb::object array;
@@ -302,7 +302,8 @@ Eigen::MatrixXi whole_matrix(nb::handle object, const std::string &what, Index r
                width = integer(array.attr("shape")[1]);
    require((rows < 0 || height == rows) && (columns < 0 || width == columns), what,
            " has shape ", shape_of(array), ", must have ", sizes(rows, columns));
-   // As doubles no whole number wraps around; what is too large for one is out of range too.
+   // As doubles whole numbers do not wrap around. A number that is too large for a double is
+   // out of range too.
    const nb::object exact = numpy.attr("ascontiguousarray")(array, numpy.attr("float64"));
    const auto view = nb::cast<nb::ndarray<const double, nb::c_contig, nb::device::cpu>>(exact);
    Eigen::MatrixXi all(height, width);

@@ -3,7 +3,7 @@
 #include "arguments.hpp"
 #include <nanobind/ndarray.h>
 
-// Arrays that Python is given.
+// Arrays that are given to Python.
 
 namespace cattaneo::python
 {
@@ -56,7 +56,7 @@ inline Integers array_of_indices(const std::vector<Index> &values)
    return array_of_indices(std::vector<int>(values.begin(), values.end()));
 }
 
-/// What Python is given of a value: arrays of its own of matrices and vectors.
+/// The value that Python gets: a matrix or vector is copied to an array of its own.
 template <class Value>
 auto given_out(const Value &value)
 {

@@ -42,8 +42,8 @@ std::string in_words(nb::handle statements, const std::string &what)
 
 constexpr int most_rows = std::numeric_limits<int>::max() - 1;
 
-/// In SciPy's csr, a copy. It takes for granted that indices are within a matrix and would
-/// write anywhere else; a script may have changed them.
+/// A copy in SciPy's csr. The indices of a csr matrix must be checked, because a script may
+/// have changed them, and SciPy would write outside the matrix.
 nb::object own_rows(nb::handle K)
 {
    if (nb::hasattr(K, "row") && nb::hasattr(K, "col")) // coo
@@ -76,7 +76,7 @@ nb::object own_rows(nb::handle K)
    }
 }
 
-/// A sparse or dense matrix of Python's, duplicates added up as scipy does.
+/// A sparse or dense matrix of Python. Duplicate entries are added up, as SciPy does.
 NodalStiffness::Matrix stiffness(nb::handle K)
 {
    if (!nb::hasattr(K, "tocsr")) // dense
@@ -237,7 +237,8 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
       require(body.dofs[row].node >= 0, "row ", row,
               " of K is in no entry of dofs, must be a direction of a node");
    }
-   // Whatever is fixed: a matrix whose rows are in another order resists rigid motions.
+   // Checked also if dofs are fixed: a matrix whose rows are in another order resists rigid
+   // motions.
    body.body();
    if (!elements.is_none())
    {

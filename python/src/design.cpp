@@ -9,7 +9,7 @@
 #include <nanobind/stl/variant.h>
 #include <sstream>
 
-// Designs, and the derivatives that they are found by.
+// Designs, and the derivatives that the search for them uses.
 
 namespace cattaneo::python
 {
@@ -30,7 +30,7 @@ struct Wanted
    nb::object objective, shape;
 };
 
-/// What a search came to, and the problem that was designed.
+/// The outcome of a search, and the problem that was designed.
 struct Found
 {
    DesignReport report;
@@ -38,7 +38,7 @@ struct Found
    nb::list traces;
 };
 
-/// Variables as Parameters, or as columns that are added to the gap.
+/// Variables, given as Parameters or as columns that are added to the gap.
 std::vector<Parameters> variables_of(const Variables &variables, Index nodes)
 {
    if (const auto *columns = std::get_if<Numbers>(&variables))
@@ -93,7 +93,7 @@ Wanted wanted(const ReducedProblem &problem, std::vector<DesignCase> cases,
    if (objective)
    {
       result.objective = *objective;
-      // It decides what must be known of the problem.
+      // It decides which data of the problem must be known.
       of.objective = [](const Responses &, const std::vector<std::size_t> &)
       { return std::vector<Response>(); };
    }
@@ -109,7 +109,7 @@ std::vector<Response> ask(nb::handle objective, const Responses &of,
    nb::object asked = nb::cast(Asked(of));
    nb::list of_states;
    for (std::size_t k : states) { of_states.append(k); }
-   // What it is asked of ends with the call, whoever keeps it.
+   // The objects that it gets are valid only during the call, even if they are kept.
    struct End
    {
       nb::handle asked;

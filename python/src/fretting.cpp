@@ -27,8 +27,8 @@ CATTANEO_ARGUMENT(Entries, "float | numpy.typing.NDArray[numpy.float64]", anythi
 
 using Names = std::vector<const char *>;
 
-/// f of each entry of the arguments, broadcast; a float if all are numbers. f gives `columns`
-/// values, which are the last dimension of the result if they are several.
+/// f for each entry of the arguments, which are broadcast; a float if all are numbers. If f
+/// gives several values (`columns`), these are the last dimension of the result.
 nb::object each_entry(const std::vector<nb::object> &arguments, const Names &names,
                       std::size_t columns,
                       const std::function<void(const double *, double *)> &f)
@@ -43,7 +43,7 @@ nb::object each_entry(const std::vector<nb::object> &arguments, const Names &nam
          all.append(numpy.attr("float64")(number(argument, names[k])));
          continue;
       }
-      // Checked as one row, so that an entry is named.
+      // Checked as one row, so that the error names the entry.
       const nb::object shape = numpy.attr("shape")(argument);
       const nb::object flat = nb::len(shape) == 0 ? argument : numpy.attr("ravel")(argument);
       const Eigen::VectorXd values = nb::len(shape) == 0
@@ -98,7 +98,7 @@ void define(nb::module_ &m, const char *name, double (*f)(Each...),
       },
       arg(names[I])..., doc);
 }
-/// A function of numbers.
+/// Binds a function of numbers.
 template <class... Each>
 void define(nb::module_ &m, const char *name, double (*f)(Each...),
             const std::array<const char *, sizeof...(Each)> &names, const char *doc)
@@ -121,7 +121,7 @@ void define_of_edge(nb::module_ &m, const char *name, double (*f)(const Edge &, 
       },
       arg("edge"), arg(names[I])..., doc);
 }
-/// A function of an edge and numbers.
+/// Binds a function of an edge and numbers.
 template <class... Each>
 void define_of_edge(nb::module_ &m, const char *name, double (*f)(const Edge &, Each...),
                     const std::array<const char *, sizeof...(Each)> &names, const char *doc)

@@ -81,7 +81,7 @@ void bind_half_spaces(nb::module_ &m)
          "outlines",
          [](const HalfSpace &self, Numbers cells)
          {
-            // True and false are no numbers elsewhere.
+            // Other functions do not accept true and false as numbers either.
             const nb::object flags = nb::module_::import_("numpy")
                                         .attr("asarray")(cells, "bool")
                                         .attr("astype")("float");

@@ -26,7 +26,7 @@ namespace
 
 using Observer = std::optional<nb::typed<nb::callable, nb::object(ContactState)>>;
 
-/// What an interface went through in a march: a number, or a number a component, of each
+/// Results of an interface in a march: a number, or one number for each component, for each
 /// increment.
 struct InterfaceMarch
 {
@@ -34,13 +34,14 @@ struct InterfaceMarch
    std::vector<int> nodes;                ///< of the problem, increasing
    std::vector<double> normal;            ///< sum of p
    std::vector<double> tangential;        ///< sums of q, one component after the other
-   std::vector<double> slip;              ///< mean of v by weights, as these
+   std::vector<double> slip;              ///< mean of v by weights, in the same order
    std::vector<int> stick, slipped, open; ///< numbers of nodes
    std::vector<double> dissipation;       ///< of each cycle
    std::vector<NamedZone> zones;          ///< at the end
 };
 
-/// The interfaces of a problem by the names of its chains. Without chains all nodes are of one.
+/// The interfaces of a problem by the names of its chains. Without chains all nodes belong to
+/// one interface.
 std::vector<InterfaceMarch> interfaces_of(const ReducedProblem &problem)
 {
    std::vector<InterfaceMarch> all;
@@ -123,17 +124,17 @@ void add_zones(std::vector<InterfaceMarch> &interfaces, const ReducedProblem &pr
    }
 }
 
-/// A report with the state it ended in, and the problem it is of.
+/// A report with the last state and the problem of the march.
 struct March
 {
    nb::object problem;
    std::vector<std::string> loads;
    MarchReport report;
    ContactState state;
-   std::vector<ContactState> states;       ///< of all increments, if they were to be kept
-   std::vector<InterfaceMarch> interfaces; ///< of marches that were followed
+   std::vector<ContactState> states;       ///< of all increments, if the settings keep them
+   std::vector<InterfaceMarch> interfaces; ///< of marches that were observed
 
-   /// A column for each increment.
+   /// One column for each increment.
    template <class Value>
    Eigen::VectorXd each(Value value) const
    {
@@ -163,7 +164,8 @@ March march_of(const ReducedProblem &problem)
    return march;
 }
 
-/// What marches a state along a history: march() of a problem, or of a joint with bolts.
+/// The function that marches a state along a history: march() of a problem, or of a joint with
+/// bolts.
 using Marcher = std::function<MarchReport(const LoadHistory &, ContactState &,
                                           const MarchSettings &, const MarchObserver &)>;
 
@@ -186,7 +188,7 @@ March march_by(const Marcher &marcher, const ReducedProblem &problem, const Hist
       if (!observer) { return; }
       const nb::gil_scoped_acquire lock;
       (*observer)(nb::cast(ContactState(at)));
-      watch.ask(); // an observer that ends the march ends it here
+      watch.ask(); // an observer that stops the march stops it here
    };
    march.report = unlocked([&] { return marcher(loads, march.state, settings, each); });
    for (InterfaceMarch &interface : march.interfaces)
@@ -214,7 +216,7 @@ March march_from(const ReducedProblem &problem, const History &history,
                  const Observer &observer, const ProgressLike &progress, const StopLike &stop,
                  const nb::kwargs &members)
 {
-   // A copy, that no other thread changes meanwhile.
+   // A copy, so that no other thread changes it meanwhile.
    const Marcher marcher = [copy = problem](const LoadHistory &loads, ContactState &at,
                                             const MarchSettings &how, const MarchObserver &each)
    { return cattaneo::march(copy, loads, at, how, each); };
@@ -227,7 +229,7 @@ March march_with_bolts(const BoltedJoint &self, const History &history,
                        bool keep_states, const Observer &observer, const ProgressLike &progress,
                        const StopLike &stop, const nb::kwargs &members)
 {
-   // The Python object of its problem, which the report names.
+   // The Python object of the problem, which the report refers to.
    const nb::object problem = nb::find(self).attr("problem");
    const Marcher marcher = [&self](const LoadHistory &loads, ContactState &at,
                                    const MarchSettings &how, const MarchObserver &each)
@@ -236,7 +238,7 @@ March march_with_bolts(const BoltedJoint &self, const History &history,
    for (const Bolt &bolt : self.bolts()) { bolts.push_back(bolt.load); }
    March march = march_by(marcher, nb::cast<const ReducedProblem &>(problem), history, state,
                           settings, keep_states, observer, progress, stop, members, bolts);
-   // Nobody asked for a march to stop where a bolt would push.
+   // The user did not request the stop of a march at which a bolt would push.
    const MarchReport &report = march.report;
    if (report.status == FrictionStatus::stopped &&
        report.message.find("would be compressed") < std::string::npos)
@@ -347,7 +349,7 @@ void bind_cycles(nb::module_ &m)
            });
 }
 
-/// Numbers of each increment: (increments,), or of two components (increments, 2).
+/// Numbers for each increment: (increments,), or for two components (increments, 2).
 Reals of_increments(const std::vector<double> &values, std::size_t increments)
 {
    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -422,7 +424,7 @@ struct Cycle
    std::vector<std::string> loads;
 };
 
-/// Loads by name at each point.
+/// Loads by name, at each point.
 std::vector<NamedLoads> points_of(nb::handle points, const std::string &what)
 {
    const std::string needed = "a list of loads by name, as [{}, {\"P\": 1}, {\"Q\": 0.2}]";

@@ -4,12 +4,12 @@
 #include <cattaneo/friction/march.hpp>
 #include <variant>
 
-// What functions share that march a contact.
+// Code that all functions share which march a contact.
 
 namespace cattaneo::python
 {
 
-/// A LoadHistory, or points that go on from where a state stands.
+/// A LoadHistory, or points that continue from the loads of a state.
 CATTANEO_ARGUMENT(History,
                   "LoadHistory | collections.abc.Sequence[collections.abc.Mapping[str, float]]",
                   anything);
@@ -18,21 +18,21 @@ CATTANEO_ARGUMENT(History,
 CATTANEO_ARGUMENT(Points, "collections.abc.Sequence[collections.abc.Mapping[str, float]]",
                   anything);
 
-/// A MarchReport of Python's.
+/// A MarchReport as a Python object.
 nb::object march_report(const ReducedProblem &problem, MarchReport report, ContactState state);
 
-/// Warns where a script should not pass over how `what` ended.
+/// Warns if `what` ended with an outcome that a script should not ignore.
 void warn_of_status(const std::string &what, FrictionStatus status, const std::string &message);
-/// The same, and where contact was cut off.
+/// The same, and warns of contact that was cut off.
 void warn_of(const std::string &what, const MarchReport &report);
 
-/// The history of a march that begins at `state`, whose loads are those that a first point does
-/// not name. A list of points goes on from where the state stands; a history has times of its
-/// own.
+/// The history of a march that begins at `state`. Loads that the first point does not name are
+/// those of the state. A list of points continues from the time of the state; a history has its
+/// own times.
 LoadHistory history_from(const ReducedProblem &problem, const History &history,
                          const ContactState &state);
 
-/// `state`, which must be one of the problem, or rest if there is none.
+/// `state`, which must belong to the problem, or the virgin state if none is given.
 ContactState state_or_rest(const ReducedProblem &problem, const ContactState *state);
 
 } // namespace cattaneo::python

@@ -6,12 +6,12 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-// Members that several classes have.
+// Members that several classes share.
 
 namespace cattaneo::python
 {
 
-/// A value: copy(), and what the module copy asks for.
+/// For values: copy(), and the functions that the module copy calls.
 template <class T>
 void bind_copies(nb::class_<T> &value, const char *doc = "")
 {
@@ -22,7 +22,7 @@ void bind_copies(nb::class_<T> &value, const char *doc = "")
          "__deepcopy__", [](const T &self, nb::object) { return T(self); }, arg("memo"));
 }
 
-/// What must fit a problem.
+/// For objects that must fit a problem.
 template <class T>
 void bind_validate(nb::class_<T> &value)
 {
@@ -31,7 +31,7 @@ void bind_validate(nb::class_<T> &value)
       arg("problem"), "InputError unless it is one of the problem.");
 }
 
-/// A getter of what `get` makes of each entry of a member, as a list.
+/// A getter that applies `get` to each entry of a member and returns a list.
 template <class T, class Range, class Get>
 auto each_of(Range T::*range, Get get)
 {
@@ -56,7 +56,7 @@ nb::list references(T &self, Range &range, Get get)
    return all;
 }
 
-/// How marching ended. `report` gives what has a status and a message.
+/// The outcome of a march. `report` returns an object with a status and a message.
 template <class T, class Report>
 void bind_outcome(nb::class_<T> &value, Report report)
 {

@@ -20,7 +20,7 @@ void bind_common(nb::module_ &m)
                                           "wrong, where, the value, and what is allowed.",
                                           PyExc_ValueError, nullptr));
    m.attr("InputError") = input_error;
-   // A sentence may quote a file whose letters are no UTF-8.
+   // A sentence may quote a file that is not in UTF-8.
    nb::register_exception_translator(
       [](const std::exception_ptr &thrown, void *)
       {
@@ -90,7 +90,7 @@ void bind_common(nb::module_ &m)
 
 NB_MODULE(_core, m)
 {
-   // Module-level objects outlive the interpreter's last count of them.
+   // Objects of the module live longer than the interpreter's check for leaks.
    nb::set_leak_warnings(false);
    m.doc() = "Cattaneo::core as Python sees it; the package cattaneo has the names.";
    m.attr("version") = CATTANEO_VERSION;

@@ -2,7 +2,8 @@
 
 #include <nanobind/nanobind.h>
 
-// One function a concept; each adds its classes and functions to the module.
+// One function for each concept. It adds the classes and functions of the concept to the
+// module.
 
 namespace cattaneo::python
 {

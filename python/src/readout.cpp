@@ -9,7 +9,7 @@
 #include <nanobind/stl/vector.h>
 #include <sstream>
 
-// What a state says: zones, edges of contact, tractions.
+// Readings of a state: zones, edges of contact, tractions.
 
 namespace cattaneo::python
 {
@@ -56,7 +56,7 @@ std::string NamedZone::places() const
 namespace
 {
 
-/// The state, which must be one of the problem.
+/// The state, which must belong to the problem.
 const ContactState &checked(const ReducedProblem &problem, const ContactState &state)
 {
    state.validate(problem);
@@ -67,7 +67,7 @@ std::string with_error(double value, double error)
 {
    std::ostringstream text;
    text << value;
-   // The end of a line is known.
+   // The end of a line is exact.
    if (error > 0) { text << " ± " << error << " (estimate)"; }
    return text.str();
 }

@@ -7,22 +7,22 @@
 #include <string>
 #include <vector>
 
-// What functions share that read out zones and edges of contact.
+// Code that all functions share which read out zones and edges of contact.
 
 namespace cattaneo::python
 {
 
-/// The body by its word.
+/// The body that a word names.
 inline CrackedBody cracked_body(const std::string &cracked)
 {
    return chosen<CrackedBody>(cracked, "cracked");
 }
 
-/// A zone with what its numbers stand for.
+/// A zone with its interface and places.
 struct NamedZone
 {
    Zone zone;
-   std::optional<NodeState> state; ///< none: in contact, whatever slips
+   std::optional<NodeState> state; ///< none: in contact, sticking or slipping
    std::string interface;
    /// Places of its ends; NaN if they are not known.
    Eigen::Vector2d from = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()),

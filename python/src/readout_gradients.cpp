@@ -16,7 +16,7 @@ namespace cattaneo::python
 namespace
 {
 
-/// The trace, of the problem as it was marched.
+/// The trace, which must belong to the problem as it was marched.
 const MarchTrace &trace_of(const ReducedProblem &problem, const Trace &trace)
 {
    trace.check(problem);

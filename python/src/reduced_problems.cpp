@@ -14,7 +14,7 @@
 #include <nanobind/stl/vector.h>
 #include <sstream>
 
-// The narrow waist: a contact problem as plain data.
+// The reduced problem, a contact problem as plain data.
 
 namespace cattaneo::python
 {
@@ -28,10 +28,10 @@ CATTANEO_ARGUMENT(Sparse,
 
 using Self = ReducedProblem;
 
-/// No rows: there is none.
+/// No rows: there is no such matrix.
 Eigen::MatrixXd mass(nb::object M)
 {
-   if (nb::hasattr(M, "toarray")) { M = M.attr("toarray")(); } // SciPy's sparse ones
+   if (nb::hasattr(M, "toarray")) { M = M.attr("toarray")(); } // a sparse matrix of SciPy
    return M.is_none() ? Eigen::MatrixXd() : matrix(M, "M");
 }
 
@@ -77,7 +77,7 @@ ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C,
       const auto count = static_cast<Index>(problem.patterns.size());
       problem.H = matrix(H, "H", count, count);
    }
-   // By rows and columns, so that a matrix of one triangle is not taken for half of another.
+   // Read by rows and columns, so that a matrix with only one triangle is noticed.
    for (const auto &[name, block] :
         {std::pair<const char *, const Eigen::MatrixXd &>("A", tangential), {"C", normal}})
    {
@@ -154,7 +154,7 @@ std::string brief(const Self &self)
    return text.str();
 }
 
-/// Sets n numbers where they are, so that views of them stay right.
+/// Sets n numbers in place, so that views of them stay valid.
 void set_numbers(Eigen::VectorXd &to, nb::handle values, const char *what, Index n)
 {
    const Eigen::VectorXd all = vector_or_number(values, what, n);

@@ -16,7 +16,7 @@
 #include <nanobind/stl/vector.h>
 #include <sstream>
 
-// Condensed bodies meet: interfaces, reduce(), and the way back to the fields of the bodies.
+// Interfaces of condensed bodies, reduce(), and the recovery of the fields of the bodies.
 
 namespace cattaneo::python
 {
@@ -24,9 +24,10 @@ namespace cattaneo::python
 namespace
 {
 
-/// A number of a body alone is that of a half-plane, whose line is the other side's.
+/// A side that is only the number of a body is a half-plane, whose line is that of the other
+/// side.
 using Side = std::variant<int, std::pair<int, ContactLine>, std::pair<int, ContactSurface>>;
-/// A number, or a function of (x, y), in space of (x, y, z).
+/// A number, or a function of (x, y), in three dimensions of (x, y, z).
 using Place = std::variant<double, nb::typed<nb::callable, double(double, double)>>;
 using Bodies = std::vector<CondensedBody>;
 
@@ -76,7 +77,7 @@ Reduction reduced_pair(const CondensedBody &body, const CondensedBody &other,
       return std::none_of(of.line.chains.begin(), of.line.chains.end(),
                           [](const LineChain &chain) { return chain.elements.empty(); });
    };
-   // Places coincide. Where elements do not, nodes do not bear one to one.
+   // The places coincide. If the elements do not, forces are not transferred from node to node.
    if (differing_element(body.line, other.line, pairs) >= 0 && knows_elements(body) &&
        knows_elements(other))
    {
@@ -378,7 +379,7 @@ void bind_reductions(nb::module_ &m)
                      nb::repr(problem).c_str() + ">";
            });
 
-   // Condensed bodies to a reduced problem: one function a kind of what bears on what.
+   // From condensed bodies to a reduced problem: one function for each kind of contact.
    const char *const torsion_is =
       "torsion: the axisymmetric bodies once more, in their order, condensed to the same nodes "
       "with formulation 'torsion'. A node then has 2 tangential components; all radial ones "

@@ -13,7 +13,7 @@
 #include <nanobind/stl/vector.h>
 #include <sstream>
 
-// Derivatives of what a march returned.
+// Derivatives of the results of a march.
 
 namespace cattaneo::python
 {
@@ -40,10 +40,10 @@ namespace
 
 /// Derivatives by the entries of a state, by their names.
 using Weights = std::map<std::size_t, std::map<std::string, Numbers>>;
-/// A number depends on nothing.
+/// A plain number does not depend on the states.
 using ResponseLike = std::variant<Response, double>;
 
-/// Sensitivity with what it is of, for one thread at a time.
+/// Sensitivity with its problem and trace, for one thread at a time.
 struct Derivatives
 {
    std::unique_ptr<const ReducedProblem> problem;
@@ -61,7 +61,7 @@ struct Derivatives
             return work(*of);
          });
    }
-   /// The same, which Ctrl-C ends.
+   /// The same, and Ctrl-C ends it.
    template <class Work>
    auto watched(const char *name, Work &&from)
    {
@@ -340,7 +340,7 @@ void bind_responses(nb::module_ &m)
            });
 
    using Self = Asked;
-   // A number of a node or component that there is not is refused by Responses.
+   // Responses refuses numbers of nodes or components that do not exist.
    const auto of_node = [](auto member)
    {
       return [member](const Self &self, std::size_t state, Index node)

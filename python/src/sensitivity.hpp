@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
-// What design.cpp needs of the derivatives.
+// The part of the derivatives that design.cpp needs.
 
 namespace cattaneo::python
 {
 
-/// A trace, the problem it is of, and what of that may have been changed since.
+/// A trace with its problem, and the data of the problem that may have changed since.
 struct Trace
 {
    Trace(const ReducedProblem &of, MarchTrace states)
@@ -22,12 +22,12 @@ struct Trace
    MarchTrace trace;
    Eigen::VectorXd friction, gap;
 
-   /// InputError if `of` is not as it was marched.
+   /// InputError if `of` has changed since the march.
    void check(const ReducedProblem &of) const;
 };
 
-/// Responses: of a problem and a trace that are kept, or those that an objective is asked of,
-/// until its call ends.
+/// Responses of a problem and a trace that are kept; or those that an objective gets, which are
+/// valid until its call ends.
 class Asked
 {
 public:
@@ -55,7 +55,7 @@ private:
 };
 
 void bind_sensitivity(nb::module_ &m);
-/// Derivatives of what is read out at edges of contact, and of limits.
+/// Derivatives of results at edges of contact, and of limits.
 void bind_readout_gradients(nb::module_ &m);
 
 } // namespace cattaneo::python

@@ -115,7 +115,7 @@ std::string SettingsClass::signature() const
    std::string all = "def __init__(self, *";
    for (const SettingsMember &each : members_)
    {
-      // A stub knows numbers, words and tuples.
+      // A stub can contain numbers, words and tuples.
       const bool known =
          each.value != "inf" && (each.value[0] == '(' || each.value.back() != ')');
       all += ", " + each.name + ": " + each.kind + " = " + (known ? each.value : "...");

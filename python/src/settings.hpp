@@ -10,9 +10,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-// Structs of settings as classes of Python's. Their members and what is said of them are those
-// of the C++ struct: settings.py reads them from its header, and writes for each a header with
-// a specialisation of bind_settings().
+// Structs of settings as Python classes. Members and their descriptions are those of the C++
+// struct: settings.py reads them from its header, and writes for each struct a header with a
+// specialisation of bind_settings().
 
 namespace cattaneo::python
 {
@@ -21,8 +21,8 @@ namespace cattaneo::python
 template <class T>
 void bind_settings(nb::module_ &m);
 
-/// A member as Python has it: how its kind is called, and how it is read and set. Settings
-/// within settings are no copies where `owner` is the object that has them.
+/// A member in Python: the name of its kind, and how it is read and set. Nested settings are
+/// references if `owner` is the object that contains them.
 template <class Value>
 struct Kind
 {
@@ -41,7 +41,7 @@ struct Kind
       }
       else { return nb::detail::make_caster<Value>::Name.text; }
    }
-   /// As sentences say it.
+   /// The name of the kind in sentences.
    static std::string needed()
    {
       if constexpr (std::is_enum_v<Value>) { return "one of " + quoted(); }
@@ -52,7 +52,8 @@ struct Kind
       if constexpr (std::is_enum_v<Value>) { return nb::cast(word(value)); }
       else if constexpr (std::is_same_v<Value, std::vector<int>>)
       {
-         return nb::tuple(nb::cast(value)); // a list would be changed in vain
+         return nb::tuple(
+            nb::cast(value)); // a tuple, because changes of a list would have no effect
       }
       else if (owner.is_valid())
       {
@@ -72,7 +73,7 @@ struct Kind
       }
       else if constexpr (std::is_same_v<Value, bool>)
       {
-         const std::string kind = nb::inst_name(from).c_str(); // NumPy has truth values, too
+         const std::string kind = nb::inst_name(from).c_str(); // NumPy has truth values as well
          value = PyObject_IsTrue(from.ptr()) == 1;
          return kind == "bool" || kind == "numpy.bool" || kind == "numpy.bool_";
       }
@@ -90,7 +91,7 @@ private:
       return all;
    }
 };
-/// Distances from an edge, (nearest, farthest), or None where the window is chosen.
+/// Distances from an edge, (nearest, farthest), or None if the fit chooses the window.
 template <>
 struct Kind<FitWindow>
 {
@@ -112,19 +113,20 @@ struct Kind<FitWindow>
    }
 };
 
-/// A member of settings that are somewhere in memory.
+/// A member of settings at a given place in memory.
 struct SettingsMember
 {
    std::string name, kind, doc;
    std::function<nb::object(void *settings, nb::handle owner)> get;
-   /// TypeError or InputError for what it cannot be, which is then not taken.
+   /// TypeError or InputError for a value that is not allowed; the member then keeps its value.
    std::function<void(void *settings, nb::handle value)> set;
-   /// Sets a member of the settings that this one is, if it is and they have it.
+   /// Sets a member of these settings if this member is itself a struct of settings that has
+   /// it.
    std::function<bool(void *settings, const std::string &name, nb::handle value)> set_within;
-   std::string value = ""; ///< of the defaults, as it is written
+   std::string value = ""; ///< the default, as a text
 };
 
-/// A class of settings by its members: compiled once for all of them.
+/// A class of settings, described by its members; compiled once for all structs.
 class SettingsClass
 {
 public:
@@ -132,12 +134,13 @@ public:
 
    /// TypeError for a name that no member has.
    void set(void *settings, const nb::dict &values) const;
-   /// A member by its name, or one of settings within; false if there is none.
+   /// A member by its name, also one of nested settings; false if there is none.
    bool set_any(void *settings, const std::string &name, nb::handle value) const;
-   /// Members by their names, also those of settings within; TypeError for a name that none
-   /// has.
+   /// Members by their names, also those of nested settings; TypeError for a name that no
+   /// member has.
    void set_all(void *settings, const nb::kwargs &values) const;
-   /// Attributes, those that are misspelt, printing and pickling; all but how one is made.
+   /// Adds attributes, errors for misspelt ones, printing and pickling; everything but the
+   /// constructor.
    void define(const std::shared_ptr<const SettingsClass> &self) const;
    /// Signature of its constructor.
    std::string signature() const;
@@ -163,7 +166,7 @@ std::shared_ptr<const SettingsClass> &settings_class()
    return bound;
 }
 
-/// Sets members that a call gives by their names beside its settings.
+/// Sets members that a call gives by name besides its settings.
 template <class T>
 void set_members(T &settings, const nb::kwargs &members)
 {
@@ -186,7 +189,7 @@ public:
       { return Kind<Value>::get(static_cast<T *>(settings)->*member, owner); };
       const auto set = [member, what = name_ + "." + name](void *settings, nb::handle value)
       {
-         // Changes a copy, which is checked before it is taken.
+         // Changes a copy, which is checked before it replaces the settings.
          T changed = *static_cast<T *>(settings);
          if (!Kind<Value>::set(value, changed.*member, what))
          {
@@ -230,7 +233,7 @@ public:
    }
 
 private:
-   /// The check that the C++ library makes, if there is one of this struct alone.
+   /// The check of the C++ library, if this struct has its own.
    template <class Struct>
    static auto check(const Struct &settings, int) -> decltype(settings.validate())
    {

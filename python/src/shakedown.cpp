@@ -14,7 +14,7 @@
 #include <nanobind/stl/vector.h>
 #include <sstream>
 
-// Shakedown limits and what belongs to them.
+// Shakedown limits, and the functions for them.
 
 namespace cattaneo::python
 {

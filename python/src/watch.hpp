@@ -12,9 +12,9 @@ CATTANEO_ARGUMENT(ProgressLike,
                   anything);
 CATTANEO_ARGUMENT(StopLike, "threading.Event", anything);
 
-/** Long work without the interpreter's lock, which Ctrl-C ends with KeyboardInterrupt, and
-    which is stopped from elsewhere by an object with is_set(), as threading.Event: its status
-    is then 'stopped', and its result what it came to before. */
+/** Long work without the interpreter's lock. Ctrl-C ends it with KeyboardInterrupt. An object
+    with is_set(), such as threading.Event, can stop it from elsewhere: its status is then
+    'stopped', with the result so far. */
 class Watch
 {
 public:
@@ -22,7 +22,7 @@ public:
    Watch(nb::handle progress, nb::handle stop);
 
    Monitor monitor();
-   /// Asks `stop`, if there is one, now: it is looked at only now and then.
+   /// Checks `stop`, if there is one, now. Otherwise it is checked only from time to time.
    void ask();
 
 private:
@@ -32,7 +32,7 @@ private:
    std::atomic<bool> stopped_{false};
 };
 
-/// Does what `work` says without the lock.
+/// Calls `work` without the lock.
 template <class Work>
 auto unlocked(Work &&work)
 {
@@ -40,11 +40,11 @@ auto unlocked(Work &&work)
    return work();
 }
 
-/// Held while Ipopt works: the linear solver inside of it (MUMPS) is not safe for threads. What
-/// is called from inside may ask for Ipopt in turn.
+/// Held while Ipopt works: the linear solver inside of it (MUMPS) is not safe for threads. A
+/// function that is called from inside may use Ipopt in turn.
 std::recursive_mutex &ipopt();
 
-/// Does what `work` says with Ipopt, without the interpreter's lock, which is given up first.
+/// Calls `work`, which uses Ipopt, without the interpreter's lock, which is released first.
 template <class Work>
 auto one_at_a_time(Work &&work)
 {
@@ -53,7 +53,7 @@ auto one_at_a_time(Work &&work)
    return work();
 }
 
-/// Warns of an outcome that a script should not pass over, as cattaneo.OutcomeWarning.
+/// Warns, with cattaneo.OutcomeWarning, of an outcome that a script should not ignore.
 void warn(const std::string &sentence);
 
 } // namespace cattaneo::python

@@ -26,7 +26,7 @@ Truths truths(const std::vector<bool> &values)
    return array<Truths>(std::move(all));
 }
 
-/// A report with the state it ended in, and what was taken on the way.
+/// A report with the last state and the records of the computation.
 struct Wear
 {
    nb::object problem;
@@ -34,7 +34,7 @@ struct Wear
    WearState state;
 };
 
-/// What worn_out() found, free of the problem.
+/// The result of worn_out(), independent of the problem.
 struct Worn
 {
    WornOut end;
