@@ -231,10 +231,11 @@ void axisymmetric_receding(Study &study)
                 positive);
    study.option(&rotations, "rotation",
                 "Torsion: rotations at which results are printed instead, in p0/E.", positive);
-   study.option(&twisted, "twist",
-                "What twists: rotation of the top, of its loaded part or of the rim, or "
-                "traction, a torque, on the loaded part.",
-                {"top", "loaded", "rim", "traction"});
+   study.option(
+      &twisted, "twist",
+      "Control of the twist: rotation of the top, of its loaded part or of the rim, or "
+      "traction, a torque, on the loaded part.",
+      {"top", "loaded", "rim", "traction"});
    study.option(&cycles, "twist-cycles", "Torsion: cycles to and fro.", not_negative);
    study.option(&amplitude, "amplitude",
                 "Torsion: amplitude of the torque of the cycles, in T_s.", above_up_to(0, 1));

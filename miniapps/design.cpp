@@ -241,7 +241,8 @@ void design_contact(Study &study)
                chosen.goal + " of the start");
    study.value("objective", std::abs(report.objective), chosen.goal + " of the design");
    study.value("stationarity", report.stationarity, "gradient that is left");
-   study.value("complementarity", report.complementarity, "multipliers times what is left");
+   study.value("complementarity", report.complementarity,
+               "multipliers times distances to limits");
    study.value("violation", report.violation, "limits violated by");
    study.results["variables"] =
       std::vector<double>(report.x.data(), report.x.data() + report.x.size());

@@ -58,7 +58,8 @@ void march_problem(Study &study)
    FrictionSettings &solver = history.settings.friction;
    int max_sweeps = static_cast<int>(solver.max_sweeps);
    study.options().group("The problem");
-   study.option(&file, "reduced", "Reduced problem: what --save of a study wrote, or your own.",
+   study.option(&file, "reduced",
+                "Reduced problem: a file that --save of a study wrote, or your own.",
                 Text::input);
    study.option(&friction, "friction",
                 "Coefficient of friction of all nodes, instead of the file's.", not_negative);

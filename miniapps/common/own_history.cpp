@@ -638,9 +638,9 @@ void report_critical_friction(Study &study, const ReducedProblem &problem)
                                 ? text(" (node %ld)", static_cast<long>(critical.weakest_node))
                                 : "";
    study.say(
-      "Critical friction: of a node alone " + words(critical.node, "none") + which +
-      ", locks itself above " + words(critical.locking, "none") +
-      ", one answer for sure below " +
+      "Critical friction: of a single node " + words(critical.node, "none") + which +
+      ", the contact can lock itself above " + words(critical.locking, "none") +
+      ", only one solution below " +
       (critical.unique_below > 0 ? words(critical.unique_below, "any") : "(nothing proven)"));
 }
 

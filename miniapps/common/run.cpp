@@ -330,9 +330,9 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
    }
    for (const std::string &load : still)
    {
-      study.say(
-         "load " + load +
-         " does no work in a cycle, because what it acts on does not move: it has no loop");
+      study.say("load " + load +
+                " does no work in a cycle, because the place where it acts does not move: it "
+                "has no loop");
    }
    report_steady(study, report);
    add_loops(study, problem, report);
@@ -520,7 +520,8 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
    if (report.taken_up_clearance > 0)
    {
       say("Free bodies that touched nothing were moved before the march, by up to ",
-          text("%.4g", report.taken_up_clearance), ", to where the first loads press it on");
+          text("%.4g", report.taken_up_clearance),
+          ", to where the first loads press them together");
    }
    if (report.status == FrictionStatus::converged) { return 0; }
    if (const auto &first = report.not_unique)

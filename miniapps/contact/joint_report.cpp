@@ -389,8 +389,8 @@ void JointReport::report_bolts(const ContactState &state)
    if (begins)
    {
       study_.say(
-         text("   the saved state is of an older version and keeps nothing of its bolts: "
-              "'least' and 'most' begin at time %g, where the march is taken up",
+         text("   the saved state is of an older version and has no values of its bolts: "
+              "'least' and 'most' begin at time %g, where the march continues",
               known_from_));
    }
    const std::vector<double> now = shanks(state);

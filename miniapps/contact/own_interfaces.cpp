@@ -95,7 +95,7 @@ void move_obstacles(Reduction &reduction, const JointCase &joint)
          // In axisymmetry it moves only along the axis.
          const bool said = !along.load.empty();
          require(plane || way == 1 || !said, face.source.called("guide"),
-                 ": about an axis an obstacle moves along y alone");
+                 ": in axisymmetry an obstacle can only move along y");
          if (along.motion == Guide::Motion::held || (!plane && way != 1)) { continue; }
          JointCase::Motion one;
          one.centre = {at[0], at[1]};
@@ -118,7 +118,7 @@ void move_obstacles(Reduction &reduction, const JointCase &joint)
          require(joint.formulation == Formulation::plane ||
                     (one.along[0] == 0 && one.angle == 0),
                  joint.faces[k].source.called("motion"),
-                 ": about an axis an obstacle moves along y alone");
+                 ": in axisymmetry an obstacle can only move along y");
          loads[one.load].push_back(rigid(k, one));
       }
    }

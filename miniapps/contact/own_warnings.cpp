@@ -346,9 +346,11 @@ void SidesThatBear::warn() const
    miniapp::warn(
       corners_
          ? told("interface '", face_.name, "': its side turns by ", angle, " degrees ", place,
-                ", where it bears. A contact node has one normal, so forces and zones are "
+                ", where it carries a force. A contact node has one normal, so forces and "
+                "zones are "
                 "wrong there: make each face a separate interface, or give a curve more nodes")
-         : told("node ", worst_.index, " ", place, " bears although its normal is ", angle,
+         : told("node ", worst_.index, " ", place, " carries a force although its normal is ",
+                angle,
                 " degrees off that of the rigid line. Forces and zones are wrong there: name "
                 "no boundary around a corner as contact"));
 }
@@ -378,8 +380,8 @@ void warn_of_cut_elements(const mfem::Mesh &mesh, const BoundaryPart &part,
    }
    if (count == 0) { return; }
    warn(called + ": the interval of '" + name + "' ends within an element, " + first +
-        ", which is left out of the contact: nothing bears there, and the nodes beside it bear "
-        "more. It must end where elements end, or the mesh must have a node there");
+        ", which is left out of the contact: no force is carried there, and the nodes beside "
+        "it carry more. It must end where elements end, or the mesh must have a node there");
 }
 
 } // namespace miniapp

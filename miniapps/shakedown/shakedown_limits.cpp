@@ -277,7 +277,8 @@ void Shakedown::lower()
       const char *const statement =
          "slip changes the pressure here (B is not zero): up to this load some starts shake "
          "down, and others may slip for ever";
-      study.say(std::string("      ") + statement + "; --lower tells what is proven of all");
+      study.say(std::string("      ") + statement +
+                "; --lower gives the load that is proven for all starts");
       results["lower_limit_statement"] = statement;
       return;
    }

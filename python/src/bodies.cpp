@@ -690,8 +690,8 @@ void bind_lines(nb::module_ &m)
 
    m.def(
       "joined", [](const std::vector<Self> &lines) { return joined(lines); }, arg("lines"),
-      "The trace of a body with several interfaces, to be condensed to at once: all nodes of "
-      "the lines, one line after the other, each once.");
+      "The trace of a body with several interfaces, for one condensation: all nodes of the "
+      "lines, one line after the other, each once.");
    m.def(
       "straight_line",
       [](Numbers grid, int order, const std::string &formulation)
@@ -713,23 +713,24 @@ void bind_surfaces(nb::module_ &m)
    m.def(
       "joined", [](const std::vector<Self> &surfaces) { return joined(surfaces); },
       arg("surfaces"),
-      "The trace of a body in space with several interfaces, to be condensed to at "
-      "once.\n\nsurfaces: of contact_surface(); nodes and faces of all, each node once.");
+      "The trace of a body in space with several interfaces, for one "
+      "condensation.\n\nsurfaces: of contact_surface(); nodes and faces of all, each node "
+      "once.");
    nb::class_<Self>(
       m, "ContactSurface",
       "The trace of a body in space: its contact nodes and the faces between them.\n\nOn "
       "faces of 6 and 8 nodes displacements, gaps and forces are those of unknowns. These have "
       "positive weights: N + 1/5 of the middles of adjacent edges at corners, 3/5 N at "
       "middles. "
-      "at_nodes() and forces_at_nodes() turn them into those of the nodes.")
+      "at_nodes() and forces_at_nodes() convert them to those of the nodes.")
       .def("__len__", &Self::size)
       .def(
          "at_nodes",
          [](const Self &self, Numbers values)
          { return array(self.at_nodes(matrix(values, "values", self.size(), -1))); },
          arg("values"),
-         "values: (n, k) of the unknowns, displacements for instance; those of "
-         "the nodes.")
+         "values: (n, k) of the unknowns, displacements for instance. Returns those of the "
+         "nodes.")
       .def(
          "of_nodes",
          [](const Self &self, Numbers values)
@@ -740,8 +741,7 @@ void bind_surfaces(nb::module_ &m)
          [](const Self &self, Numbers forces)
          { return array(self.forces_at_nodes(matrix(forces, "forces", self.size(), -1))); },
          arg("forces"),
-         "forces: (n, k) on the unknowns; those on the nodes that do the same "
-         "work.")
+         "forces: (n, k) on the unknowns. Returns those on the nodes that do the same work.")
       .def_prop_ro(
          "positions", [](const Self &self) { return array(Eigen::MatrixXd(self.positions())); },
          "(n, 3)")

@@ -109,7 +109,7 @@ void bind_half_planes(nb::module_ &m)
          "point: of the surface. normal: into the half-plane, a unit vector.\n"
          "forces: by name, (x, y), from far away; without any it is held.\n"
          "bulk: by name, uniform stresses along the surface, tension positive; about an axis "
-         "the same in all directions. The point stays where it is. A name may have a force as "
+         "the same in all directions. They do not move `point`. A name may have a force as "
          "well.\n"
          "thickness: of the plane: forces and stiffness are those of this thickness.")
       .def_ro("material", &HalfPlane::material)
@@ -198,7 +198,7 @@ void bind_half_planes(nb::module_ &m)
          "body: the half-plane. line: of the condensed half-plane. forces: {q; p} on its nodes "
          "in their frames. "
          "bulk: "
-         "uniform stress along the surface that acts beside them, tension positive.")
+         "uniform stress along the surface that acts in addition, tension positive.")
       .def(
          "at",
          [](const Field &self, Numbers points)

@@ -129,8 +129,8 @@ void bind_half_spaces(nb::module_ &m)
                Eigen::VectorXd(self.resultant(vector(forces, "forces", 3 * self.nodes()))));
          },
          nb::arg("forces"),
-         "(6,), force and moment about x = y = 0 along x, y and z, that nodal forces {q; p}, "
-         "(3 n,), are on the body above.")
+         "(6,), resultant on the body above of nodal forces {q; p}, (3 n,): force and moment "
+         "about x = y = 0, along x, y and z.")
       .def(
          "write_vtu",
          [](const HalfSpace &self, File name, const ReducedProblem &problem,

@@ -709,7 +709,8 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro("steady_period", copied(&Self::report, &MarchReport::steady_period))
       .def_prop_ro(
          "loss_error", [](const Self &self) { return self.report.loss_error.value; },
-         "how far the loss, in all or of a cycle, may be from that of the path; nan: not known")
+         "error of the loss, of the whole march or of one cycle, compared with the exact path; "
+         "nan: not known")
       .def_prop_ro(
          "loss_error_is",
          [](const Self &self) { return self.report.loss_error.bound ? "bound" : "estimate"; },
@@ -764,21 +765,20 @@ void bind_marches(nb::module_ &m)
       "Marches a contact along a load history, from rest or from `state`, which is not "
       "changed.\n\n"
       "problem: the contact, which is not changed either.\n"
-      "history: points, [{}, {'P': 1}, {'Q': 0.2}], the first of which is where the state "
-      "stands; a load that a point does not name keeps its value. Or a LoadHistory, whose "
-      "times "
-      "are its own: a march that was stopped is taken up with the same history and the state "
-      "it "
-      "came to.\n"
-      "settings: how it is marched. Those that are given say whether the error of the loss is "
-      "asked for. Members may be given by their names alone, as increments=40, also those of "
+      "history: points, [{}, {'P': 1}, {'Q': 0.2}], the first of which has the loads of the "
+      "state; a load that a point does not name keeps its value. Or a LoadHistory, which has "
+      "its own times: to continue a march that was stopped, pass the same history and its last "
+      "state.\n"
+      "settings: how it is marched. Given settings also decide whether the error of the loss "
+      "is estimated (loss_error). Members may be given by their names alone, as increments=40, "
+      "also those of "
       "settings within.\n"
       "keep_states: keeps the state of every increment. observer: is called with each.\n"
       "progress: True shows a line on stderr; a function is called with Progress. Other "
       "threads run meanwhile; Ctrl-C raises KeyboardInterrupt, and `stop`, a threading.Event, "
       "ends the march with status 'stopped' and the results so far.\n\n"
-      "An outcome other than 'converged' is warned of (OutcomeWarning) and stands in the "
-      "report.");
+      "There is a warning (OutcomeWarning) for an outcome other than 'converged'. The report "
+      "has it as well.");
    using Joint = BoltedJoint;
    nb::class_<Joint>(
       m, "BoltedJoint",
@@ -794,7 +794,7 @@ void bind_marches(nb::module_ &m)
          },
          arg("loose"), arg("bolts"),
          "loose: the reduction of all bodies, its gaps and friction set, in which the load of "
-         "each bolt is of forces on its two ends that are each other's opposite.\n"
+         "each bolt consists of opposite forces on its two ends.\n"
          "bolts: the stiffness of each, force over displacement of a load whose forces add up "
          "to 1 on either end; of F in their place stiffness / F².")
       .def_prop_ro(
@@ -826,7 +826,7 @@ void bind_marches(nb::module_ &m)
            "multiplier is its pretension. The march ends with status 'stopped' where the force "
            "of a bolt has fallen to zero and would turn into compression.\n"
            "state: of `problem`, where the march begins; None: before any load.\n"
-           "settings, keep_states, observer, progress, stop: as march() has them.")
+           "settings, keep_states, observer, progress, stop: as for march().")
       .def("__repr__",
            [](const Joint &self)
            {

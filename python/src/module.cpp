@@ -48,8 +48,7 @@ void bind_common(nb::module_ &m)
       .def_ro("steps", &Progress::steps, "increments of a march, iterations of a limit")
       .def_ro("time", &Progress::time, "of a march, in its load history")
       .def_ro("seconds", &Progress::seconds, "since it began");
-   nb::class_<BlasKernels>(m, "BlasKernels",
-                           "The kernels of OpenBLAS that work in this process.")
+   nb::class_<BlasKernels>(m, "BlasKernels", "The kernels of OpenBLAS that this process uses.")
       .def_ro("name", &BlasKernels::name,
               "OpenBLAS's own name, as 'Haswell'; '' with another BLAS or with none")
       .def_ro("better", &BlasKernels::better,
@@ -58,7 +57,7 @@ void bind_common(nb::module_ &m)
                    "one sentence with their name; it says what to do if others are far faster")
       .def("__repr__", &BlasKernels::statement);
    m.def("blas_kernels", &blas_kernels,
-         "The kernels of OpenBLAS that work in this process. OpenBLAS chooses them when it is "
+         "The kernels of OpenBLAS that this process uses. OpenBLAS chooses them when it is "
          "loaded, by the name of the processor. The environment variable OPENBLAS_CORETYPE, "
          "set before Python starts, chooses others.");
    nb::class_<Counters> counters(

@@ -105,7 +105,8 @@ void bind_zones(nb::module_ &m)
          "to", [](const NamedZone &self) { return self.zone.to; }, "last end")
       .def_prop_ro(
          "from_place", [](const NamedZone &self) { return array(self.from); },
-         "(x, y) of the first end, on the straight way between the nodes beside it; nan if the "
+         "(x, y) of the first end, on the straight line between the nodes beside it; nan if "
+         "the "
          "problem has no places")
       .def_prop_ro(
          "to_place", [](const NamedZone &self) { return array(self.to); },
@@ -281,7 +282,7 @@ void bind_edges(nb::module_ &m)
          const std::string &cracked)
       { return edge_tractions(problem, checked(problem, state), edge, cracked_body(cracked)); },
       arg("problem"), arg("state"), arg("edge"), arg("cracked") = "second",
-      "Tractions of a state near an edge, one of contact_edges(), as fit_edge() takes them. "
+      "Tractions of a state near an edge, one of contact_edges(), as input of fit_edge(). "
       "cracked: "
       "'first' or 'second', the body on which shear is positive towards larger arc length.");
    m.def(

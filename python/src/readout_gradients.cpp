@@ -41,7 +41,7 @@ void bind_edge_responses(nb::module_ &m)
       arg("problem"), arg("trace"), arg("state"), arg("edge"), arg("cracked") = "second",
       nb::kw_only(), arg("settings") = FitSettings(), arg("members"),
       "K_N and K_T of readout.fit_edge() from the tractions of a state. The place of the edge "
-      "and the windows stay as they are. K_T needs a stuck contact: use trace_stuck().");
+      "and the windows are fixed. K_T needs a stuck contact: use trace_stuck().");
    nb::class_<CornerIntensities>(m, "CornerIntensities",
                                  "Strengths of the modes at a corner, as responses.")
       .def_ro("k_one", &CornerIntensities::k_one)

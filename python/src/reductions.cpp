@@ -162,7 +162,7 @@ void bind_reductions(nb::module_ &m)
                                        vector(axis, "axis", 3), finite(radius, "radius")));
       },
       arg("surface"), arg("point"), arg("axis"), arg("radius"),
-      "How far a cylinder without ends is from each node of a surface, along the node's "
+      "Distance of a cylinder without ends from each node of a surface, along the node's "
       "normal.\n\nsurface: of a body. point: on the axis. axis: of any length and sense. "
       "radius: "
       "negative for a bore.");
@@ -171,7 +171,7 @@ void bind_reductions(nb::module_ &m)
       [](const ContactSurface &surface, const Place &height)
       { return array(gaps_to_height(surface, place_function(height, "height"))); },
       arg("surface"), arg("height"),
-      "How far the obstacle z = height(x, y) is from each node of a surface, along the node's "
+      "Distance of the obstacle z = height(x, y) from each node of a surface, along the node's "
       "normal.\n\nsurface: of a body. height: a function of (x, y), or a number.");
 
    nb::class_<Interface>(m, "Interface",
@@ -361,9 +361,8 @@ void bind_reductions(nb::module_ &m)
          { self.add_shank(pattern, finite(stiffness, "stiffness")); },
          arg("pattern"), arg("stiffness"),
          "A bolt: the load `pattern` pulls two parts of the bodies together and becomes the "
-         "pretension; the force that acts is T - stiffness g, with g how far the parts have "
-         "come "
-         "together.\n\npattern: name of a load of forces whose sum is 1 on each part, opposite "
+         "pretension; the force that acts is T - stiffness g, with g the approach of the "
+         "parts.\n\npattern: name of a load of forces whose sum is 1 on each part, opposite "
          "on both. stiffness: force over displacement.")
       .def("__repr__",
            [](Self &of)

@@ -170,7 +170,7 @@ void bind_trace(nb::module_ &m)
       .def_prop_ro("point", each(&TracedState::point),
                    "number of the point of the history after which each state lies, from 0")
       .def_prop_ro("share", each(&TracedState::share),
-                   "share of the way to the next point, 0 to 1")
+                   "share of the path to the next point, 0 to 1")
       .def_prop_ro(
          "event", each(&TracedState::event),
          "node whose change of state determines the share; -1: the history determines it")
@@ -185,7 +185,8 @@ void bind_trace(nb::module_ &m)
       .def(
          "at",
          [](const Self &self, double time) { return self.trace.at(finite(time, "time")); },
-         arg("time"), "Index of the last state that was reached by a time of the history.")
+         arg("time"),
+         "Index of the last state that was reached not later than a time of the history.")
       .def(
          "last", [](const Self &self) { return self.trace.last(); }, "Index of the last state.")
       .def(

@@ -333,13 +333,13 @@ void bind_wear_march(nb::module_ &m)
       "`cycles` are reached, and adds the wear of each cycle to the gap. `state` is not "
       "changed.\n\n"
       "history: with a cycle (cycle_start); its number of repetitions is ignored.\n"
-      "settings: with a tolerance cycles are jumped over. The same increments and stepping are "
-      "meant: an unstable way ends elsewhere with others. Where the tolerance was not reached "
-      "`reached` is False; of that and of any other remark a warning says so.\n"
+      "settings: with a tolerance cycles are jumped over. This holds for the given increments "
+      "and stepping: unstable wear may end elsewhere with others. If the tolerance was not "
+      "reached, `reached` is False. A warning has this and any other remark.\n"
       "observer: is called with WearState and WearRecord after every cycle marched and every "
       "jump, of jumps when their error is known.\n\n"
-      "Ctrl-C, `stop` and `progress` are checked between cycles. An outcome other than "
-      "'converged' is warned of (OutcomeWarning).");
+      "Ctrl-C, `stop` and `progress` are checked between cycles. There is a warning "
+      "(OutcomeWarning) for an outcome other than 'converged'.");
 
    using Self = Worn;
    nb::class_<Self> end(m, "WornOut",

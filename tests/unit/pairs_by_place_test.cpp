@@ -109,7 +109,7 @@ TEST(PairsByPlace, ShortEdgesThatBearMoreThanTheirNeighboursAreNamed)
       ASSERT_EQ(said.size(), at_short_edge ? 1u : 0u) << x;
       if (at_short_edge)
       {
-         EXPECT_NE(said[0].find("bears 1.5 times"), std::string::npos) << said[0];
+         EXPECT_NE(said[0].find("has 1.5 times"), std::string::npos) << said[0];
       }
    }
 }
@@ -220,7 +220,7 @@ TEST(PairsByPlace, NormalsThatDifferAreSaidWhereTheyBear)
          return all;
       };
       EXPECT_NE(normals(0.1, p).find("differ by 0.1194 rad (6.843 degrees), which is not small "
-                                     "against friction, 0.1"),
+                                     "compared with the friction 0.1"),
                 std::string::npos)
          << normals(0.1, p);
       EXPECT_EQ(normals(0.7, p), "");

@@ -57,8 +57,8 @@ std::vector<MatrixX2d> HalfSpace::outlines(const std::vector<bool> &cells) const
 {
    validate();
    require(static_cast<Index>(cells.size()) == nodes(),
-           "half-space: outlines are asked for by ", cells.size(), " values, must be ", nodes(),
-           ", true or false for each cell");
+           "half-space: outlines: the selection has ", cells.size(), " values, must be ",
+           nodes(), ", true or false for each cell");
    const std::vector<Polygon> polygons = polygons_of(*this);
    const std::vector<std::vector<CellCorner>> corners = corners_of(*this, polygons);
 

@@ -273,7 +273,7 @@ void check_elements(mfem::Mesh &mesh)
    check_plane(mesh);
    require(
       mesh.GetNE() == 0 || mesh.GetNEdges() > 0,
-      "elastic body: the mesh has no edges, which the boundary is found by: finalize it with "
+      "elastic body: the mesh has no edges, from which the boundary is found: finalize it with "
       "FinalizeMesh() or generate_edges = 1");
    const Ranks ranks(mesh);
    Shapes shapes(mesh);

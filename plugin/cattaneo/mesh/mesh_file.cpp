@@ -107,8 +107,8 @@ public:
    void check() const
    {
       require(!boundary_.empty(),
-              "mesh file has no boundary elements, which contact, supports "
-              "and loads are named by (in Gmsh, put the curves of the "
+              "mesh file has no boundary elements, by which contact, supports "
+              "and loads are named (in Gmsh, put the curves of the "
               "boundary into physical groups: Physical Curve(1) = {1, 2};)");
       for (const auto &[edge, what] : boundary_)
       {

@@ -91,13 +91,14 @@ void say_normals(const ReducedProblem &problem, const InterfaceReport &face,
    const double turn = face.turn[worst], f = problem.friction[face.first + worst];
    said.push_back(sentence(
       "interface '", face.name, "': at node ", face.first + worst, " at ",
-      at(face.position.row(worst)), ", which bears, the normals of both bodies differ by ",
-      turn, " rad (", in_degrees * turn, " degrees), which is not small against friction, ", f,
-      count > 1 ? sentence(" (so they do at ", count - 1, " more)") : "",
-      ": the node has the mean of both. With the normal of either body alone its tangential "
-      "over normal force would change by ",
+      at(face.position.row(worst)),
+      ", which carries a force, the normals of both bodies differ by ", turn, " rad (",
+      in_degrees * turn, " degrees), which is not small compared with the friction ", f,
+      count > 1 ? sentence(" (also at ", count - 1, " more)") : "",
+      ": the node has the mean of both. With the normal of either body alone its ratio of "
+      "tangential to normal force would change by ",
       0.5 * turn,
-      ", so stick, slip zones and loss depend on it. Sides that touch must face each other: "
+      ", so stick, slip zones and loss depend on this. Sides that touch must face each other: "
       "move the one that is out of place, or let the contact end before it"));
 }
 
@@ -117,13 +118,13 @@ void say_held(const Reduction &reduction, const InterfaceReport &face,
       const Formulation formulation = reduction.bodies[face.bodies[0]].line.formulation;
       said.push_back(sentence(
          "interface '", face.name, "': supports hold node ", node, " at ",
-         at(face.position.row(i)), ", which bears, along ",
+         at(face.position.row(i)), ", which carries a force, along ",
          component_name(formulation, nearest_axis(tangent)), ", ", in_degrees * off,
          " degrees off the contact there. Its tangential force cannot be split into "
          "support and friction, and all of it counts as the support's. This changes "
          "the normal force by up to ",
          std::tan(off) * problem.friction[node],
-         ", relative to itself. Leave contact nodes free of supports to have friction there"));
+         " of its value. Leave contact nodes free of supports to have friction there"));
    }
 }
 
@@ -144,10 +145,11 @@ void say_moved(const Reduction &reduction, const InterfaceReport &face,
    said.push_back(sentence(
       "interface '", face.name, "': load '", problem.patterns[first->pattern].name,
       "' moves node ", first->node, " at ", at(problem.position.row(first->node)),
-      ", which bears, along the contact",
+      ", which carries a force, along the contact",
       nodes.size() > 1 ? sentence(" (and ", nodes.size() - 1, " more)") : "",
-      ", and what it faces cannot follow: the law of friction is left out at that node, and "
-      "results have neither its friction nor its slip. Both are there where the contact ends "
+      ", and the body opposite cannot follow: the law of friction is left out at that node, "
+      "and results have neither its friction nor its slip. Both are there where the contact "
+      "ends "
       "before the part that is moved"));
 }
 
@@ -234,9 +236,9 @@ void say_short_edges(const Reduction &reduction, const InterfaceReport &face,
    if (worst < 0 || most <= 1.25 * elsewhere) { return; }
    said.push_back(sentence(
       "interface '", face.name, "': node ", face.first + worst, " at ",
-      at(face.position.row(worst)), " bears ",
+      at(face.position.row(worst)), " has ",
       elsewhere > 0 ? sentence(most / elsewhere, " times the largest pressure elsewhere")
-                    : std::string("alone"),
+                    : std::string("all of the pressure"),
       "; an edge of ", called(reduction.bodies, at_edge->body), " there has ", at_edge->ratio,
       " of the length of the edge beside it. On curved sides such a short edge takes pressure "
       "that its neighbours should: make the lengths of the edges change more slowly"));
@@ -340,14 +342,15 @@ void say_polygon(const Reduction &reduction, const InterfaceReport &face,
          place = middle;
       }
       if (count == 0) { continue; }
-      said.push_back(sentence("interface '", face.name, "': ", count, " straight edges of ",
-                              called(reduction.bodies, face.bodies[k]), ", most at ", at(place),
-                              ", stay a polygon, but their vertices fit the smooth curve of "
-                              "the other side: the gap between them is wrong by up to ",
-                              most, " where it is ", gap,
-                              " (the least beside it), and nodes that should bear may not. "
-                              "Give the side more edges (an arc has five or more), one curve "
-                              "of its file, or curved elements, or take both as meshed"));
+      said.push_back(
+         sentence("interface '", face.name, "': ", count, " straight edges of ",
+                  called(reduction.bodies, face.bodies[k]), ", most at ", at(place),
+                  ", stay a polygon, but their vertices fit the smooth curve of "
+                  "the other side: the gap between them is wrong by up to ",
+                  most, " where it is ", gap,
+                  " (the least beside it), and nodes that should carry a force may not. "
+                  "Give the side more edges (an arc has five or more), one curve "
+                  "of its file, or curved elements, or take both as meshed"));
    }
 }
 
@@ -366,8 +369,8 @@ std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eig
          "interface '", face.name,
          "': its nodes are paired one to one, but elements of the bodies differ there, at ",
          at(*face.differing),
-         " for instance: a uniform pressure is not uniform then, and tractions are wrong from "
-         "node to node; without a pairing nodes need not match"));
+         " for instance: tractions of single nodes are wrong there, even under a uniform "
+         "pressure; without a pairing nodes need not match"));
    }
    for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
    {

@@ -291,8 +291,8 @@ void require_dependents(const std::vector<CondensedBody> &bodies,
                  "reduce: several interfaces meet at the node ",
                  called(bodies[row.slave.first].surface.nodes[row.slave.second]), " of ",
                  called(bodies, row.slave.first),
-                 ", and their rows cannot be told apart there: name the two sides of one of "
-                 "them the other way round");
+                 ", and their rows cannot be told apart there: exchange the two sides of one "
+                 "of them");
       }
    }
 }
