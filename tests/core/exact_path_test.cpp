@@ -2,6 +2,7 @@
 #include "same_state.hpp"
 #include "small_problems.hpp"
 
+#include <cattaneo/friction/complementarity.hpp>
 #include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/state_equations.hpp>
@@ -66,6 +67,51 @@ double violation(const ReducedProblem &problem, const ContactState &before,
       }
    }
    return worst;
+}
+
+/// Two nodes on springs of their own. The second slips, the first has slipped and is at rest,
+/// but for a load of `turn` that drives it back, and one of `press` on it.
+struct AtRest
+{
+   Eigen::MatrixXd K = 2 * Eigen::MatrixXd::Identity(4, 4);
+   StateEquations equations{K, friction_bounds(VectorXd(Vector2d(0.5, 0.5)))};
+   std::vector<NodeState> before{NodeState::forward_slip, NodeState::forward_slip};
+   ComplementarityProblem problem{
+      Eigen::Vector4d(0, -1, 0, 0), {Choice::forward, Choice::forward}, {}};
+   ComplementarityReport found;
+
+   AtRest(double turn, double press)
+   {
+      problem.b[0] = turn;
+      problem.b[2] = press;
+      EXPECT_TRUE(equations.set(before));
+      found = solve_by_newton(equations, problem, 10);
+      EXPECT_TRUE(found.solved);
+      EXPECT_EQ(equations.states()[1], NodeState::forward_slip);
+   }
+   bool kept() { return keep_states_at_rest(equations, problem, before, found); }
+};
+
+TEST(Rates, ANodeAtRestKeepsItsState)
+{
+   // A 1e-13 of the loads or less is the rounding of displacements.
+   AtRest rest(5e-14, 0);
+   EXPECT_EQ(rest.equations.states()[0], NodeState::stick);
+   EXPECT_TRUE(rest.kept());
+   EXPECT_EQ(rest.equations.states(), rest.before);
+   // The other node moves by 1/2 as before, and the forces are those of the displacements.
+   EXPECT_EQ(rest.found.x[1], 0.5);
+   EXPECT_LT(std::abs(rest.found.x[0]), 1e-13);
+   EXPECT_LT((rest.K * rest.found.x + rest.problem.b - rest.found.F).norm(), 1e-14);
+   EXPECT_FALSE(rest.kept()); // nothing is left to change
+   // One that is driven back, or pressed, does stick.
+   for (const auto &[turn, press] : {std::pair(1e-6, 0.0), std::pair(5e-14, 1.0)})
+   {
+      AtRest driven(turn, press);
+      EXPECT_EQ(driven.equations.states()[0], NodeState::stick);
+      EXPECT_FALSE(driven.kept());
+      EXPECT_EQ(driven.equations.states()[0], NodeState::stick);
+   }
 }
 
 TEST(StateEquations, UpdatesAgreeWithAFreshFactor)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/friction/complementarity.hpp>
 #include <limits>
 #include <set>
@@ -114,6 +115,45 @@ ComplementarityReport solve_by_newton(StateEquations &equations,
    };
    report.solved = newton_on_states(choices, max_steps, 0, solve, ask);
    return report;
+}
+
+bool keep_states_at_rest(StateEquations &equations, const ComplementarityProblem &problem,
+                         const std::vector<NodeState> &before, ComplementarityReport &report)
+{
+   const std::vector<NodeState> found = equations.states();
+   if (found == before) { return false; }
+   // 1. Displacements have the rounding of the largest of them, which is more than that of the
+   // products in a row, for instance where a body slips as a whole.
+   const auto rounding = [&](const ComplementarityReport &at)
+   {
+      return 1e-13 * std::max({problem.b.cwiseAbs().maxCoeff(), at.F.cwiseAbs().maxCoeff(),
+                               equations.diagonal().cwiseProduct(at.x).cwiseAbs().maxCoeff()});
+   };
+   // 2. The nodes that have changed although they are at rest go back.
+   std::vector<NodeState> states = found;
+   const double tiny = rounding(report);
+   for (Index i = 0; i < equations.nodes(); ++i)
+   {
+      const Choice choice = problem.choice[i];
+      if (choice != Choice::forward && choice != Choice::backward) { continue; }
+      const double left = equations.bound()[i].reserve(
+         report.F[i], report.F[equations.normal_row(i)], choice == Choice::forward ? 1 : -1);
+      const double slip = equations.diagonal()[i] * report.x[i];
+      if (std::max(std::abs(slip), std::abs(left)) <= tiny) { states[i] = before[i]; }
+   }
+   if (states == found || !equations.set(states)) { return false; }
+   // 3. All nodes must obey the laws.
+   ComplementarityReport kept = report;
+   bool obeyed = equations.solve(problem.b, kept.x, kept.F);
+   VectorXd round_off;
+   if (obeyed) { round_off = equations.round_off(problem.b, kept.x).cwiseMax(rounding(kept)); }
+   for (Index i = 0; obeyed && i < equations.nodes(); ++i)
+   {
+      obeyed = states[i] == wanted(equations, problem.choice[i], i, kept.x, kept.F, round_off);
+   }
+   if (obeyed) { report = std::move(kept); }
+   else { equations.set(found); }
+   return obeyed;
 }
 
 } // namespace cattaneo

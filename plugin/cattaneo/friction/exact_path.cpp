@@ -216,8 +216,9 @@ bool ExactPath::set_states(const ContactState &state)
 
 /// Finds rates with which all nodes obey the laws: by Newton's steps from the present states or
 /// from known rates, then by Lemke's method from several starts, at last with a pivot. False if
-/// there are none.
-bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
+/// there are none. @param present states of the nodes, which those keep that are at rest
+bool ExactPath::search_rates(std::optional<ComplementarityReport> known,
+                             const std::vector<NodeState> &present)
 {
    std::vector<NodeState> states = equations_.states();
    ComplementarityReport found = solve_by_newton(
@@ -243,6 +244,10 @@ bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
       }
       found.solved =
          place_pivot(std::move(states)) && equations_.solve(rates_.b, found.x, found.F);
+   }
+   if (found.solved && pivot_.node < 0)
+   {
+      keep_states_at_rest(equations_, rates_, present, found);
    }
    u_rate_ = std::move(found.x);
    F_rate_ = std::move(found.F);
@@ -281,7 +286,7 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
          return false;
       }
       // 5. Rates that meet the laws.
-      last_.ended = !search_rates(std::exchange(known, std::nullopt));
+      last_.ended = !search_rates(std::exchange(known, std::nullopt), state.status);
       if (last_.ended)
       {
          last_.failure = "no rates meet the laws of contact and friction";

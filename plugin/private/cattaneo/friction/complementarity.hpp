@@ -57,6 +57,13 @@ ComplementarityReport solve_by_newton(StateEquations &equations,
                                       const ComplementarityProblem &problem, int max_steps,
                                       ComplementarityReport start = {});
 
+/** Of rates: a node whose slip and whose distance from its friction limit do not change keeps
+    its state, whichever of stick and slip rounding has given it. Gives such nodes the states
+    `before`, and keeps these if all laws hold with them. Then the report and the states of
+    `equations` are the new ones. False if nothing has changed. */
+bool keep_states_at_rest(StateEquations &equations, const ComplementarityProblem &problem,
+                         const std::vector<NodeState> &before, ComplementarityReport &report);
+
 /** Lemke's method [Lemke 1965] with a free start.
 
     The start: x and F may be anything, such as the solution of a neighbouring problem. They are

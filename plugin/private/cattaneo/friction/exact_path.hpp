@@ -78,7 +78,8 @@ private:
    bool set_states(const ContactState &state);
    bool place_pivot(std::vector<NodeState> states);
    bool release_pivot();
-   bool search_rates(std::optional<ComplementarityReport> known);
+   bool search_rates(std::optional<ComplementarityReport> known,
+                     const std::vector<NodeState> &present);
    bool find_rates(const ContactState &state, const PathWay &way);
    double left(Eigen::Index node, double sense) const;
    double rate(Eigen::Index node, double sense) const;
