@@ -3,6 +3,8 @@
 import html
 from typing import Any
 
+from ._plot import size_of
+
 
 def _cell(value: Any) -> str:
     return html.escape(f"{value:.6g}" if isinstance(value, float) else str(value))
@@ -17,10 +19,14 @@ def _table(head: list[str], rows: list[list[Any]]) -> str:
 
 
 def _loads(report: Any) -> list[list[Any]]:
-    return [
-        [name, value, float(report.conjugates[name][-1]) if len(report.conjugates[name]) else float("nan")]
-        for name, value in report.loads.items()
-    ]
+    rows = []
+    for pattern in report.problem.patterns:
+        size, behind = size_of(pattern)
+        all_ = report.conjugates[pattern.name]
+        last = float(all_[-1]) / size if len(all_) else float("nan")
+        kind = "displacement" if pattern.control == "force" else "reaction"
+        rows.append([pattern.name, report.loads[pattern.name], last, kind + behind])
+    return rows
 
 
 def _interfaces(report: Any) -> list[list[Any]]:
@@ -43,7 +49,7 @@ def of_march(report: Any) -> str:
     cycles = [[each.cycle, each.dissipation, each.external_work, each.slip_change] for each in report.cycles[-10:]]
     return (
         f"<div><b>MarchReport</b>: {html.escape('; '.join(told))}"
-        + _table(["load", "multiplier", "displacement or reaction"], _loads(report))
+        + _table(["load", "multiplier", "displacement or reaction", "which is the"], _loads(report))
         + _table(["interface", "normal force", "tangential force", "stick", "slip", "open"], _interfaces(report))
         + _table(["cycle", "dissipation", "external work", "slip change"], cycles)
         + "</div>"

@@ -13,6 +13,17 @@ def _pyplot():
     return pyplot
 
 
+#: Loads with a resultant, whose displacement or reaction is in the units of the problem.
+_RESULTANTS = ("force", "opposite forces", "displacement", "moment", "torque", "rotation", "bolt")
+
+
+def size_of(pattern):
+    """The size of a load's resultant at multiplier 1; 1 if it has none or it is not known: results are then per unit of the load.
+    And what to write behind "displacement" or "reaction"."""
+    size = pattern.size
+    return (size["value"], f" of {pattern.name}") if size and size["kind"] in _RESULTANTS else (1.0, f" per unit of {pattern.name}")
+
+
 def march(report, axes=None):
     """Tractions and slip at the end of a march, of each interface, and the loops of the loads that vary.
 
@@ -33,15 +44,16 @@ def march(report, axes=None):
         if len(faces) > 1:
             axes[2 * k].set_title(name)
             axes[2 * k + 1].set_title(name)
-    controls = {pattern.name: pattern.control for pattern in problem.patterns}
+    patterns = {pattern.name: pattern for pattern in problem.patterns}
     for axis, name in zip(axes[2 * len(faces) :], loops):
-        load, conjugate = report.multipliers[name], report.conjugates[name]
-        if controls[name] == "force":
+        size, behind = size_of(patterns[name])
+        load, conjugate = report.multipliers[name] * size, report.conjugates[name] / size
+        if patterns[name].control == "force":
             axis.plot(conjugate, load, ".-", markersize=3)
-            axis.set(xlabel=f"displacement of {name}", ylabel=name)
+            axis.set(xlabel=f"displacement{behind}", ylabel=name)
         else:
             axis.plot(load, conjugate, ".-", markersize=3)
-            axis.set(xlabel=name, ylabel=f"reaction of {name}")
+            axis.set(xlabel=name, ylabel=f"reaction{behind}")
     return axes
 
 

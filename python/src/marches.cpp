@@ -659,7 +659,9 @@ void bind_marches(nb::module_ &m)
          "conjugates",
          [](const Self &self) { return self.each_load(&IncrementRecord::conjugates); },
          nb::sig("def conjugates(self) -> dict[str, numpy.typing.NDArray[numpy.float64]]"),
-         "displacement of a force, reaction of a displacement, by the name of the load")
+         "displacement of a force, reaction of a displacement, by the name of the load, per "
+         "unit of its multiplier: multiplier times conjugate is work. Divided by the value of "
+         "LoadPattern.size, where that is known, they are in the units of the problem.")
       .def_prop_ro("stick", number_of(&IncrementRecord::stick),
                    "number of nodes, of all interfaces together, as the next three")
       .def_prop_ro("separation", number_of(&IncrementRecord::separation))

@@ -309,10 +309,10 @@ def test_guides_are_forces_or_displacements(run):
     force = run.case(keys, "--csv", run.folder / "force")
     near(force.interface("flat")["force_x"], 3.5, 1e-9)
     near(force.interface("flat")["force_y"], 20 * 2.9, 1e-8)
-    # The conjugate of 7 Q is 7 times the displacement. From each increment to the next.
+    # From each increment to the next.
     history = run.columns("force_history.csv")
     keys["bodies"]["high"]["guides"] = {"on": "2", "x": {"displacement": "Q"}, "rotation": "free"}
-    keys["history"] = ["P=0"] + ["P=%.17g Q=%.17g" % (p, u / 7) for p, u in zip(history["load P"], history["displacement Q"])]
+    keys["history"] = ["P=0"] + ["P=%.17g Q=%.17g" % (p, u) for p, u in zip(history["load P"], history["displacement Q"])]
     keys["increments"] = 1
     displacement = run.case(keys, "--csv", run.folder / "moved")
     near(run.columns("moved_history.csv")["reaction Q"][-1], -3.5, 1e-3)
@@ -346,7 +346,7 @@ def test_guided_bars_give_by_their_compliance(run):
     keys = {"bodies": {"low": body("low.mesh", "1:xy"), "high": {**body("high.mesh", "", [], 500), "guides": [guide]}},
             "interfaces": {"joint": face("high:1", "low:3")}, "history": ["P=0", "P=1"]}
     got = run.case(keys, "--csv", run.folder / "out")
-    near(run.columns("out_history.csv")["displacement P"][-1], 100 * (3 / 1000 + 4 / 500) / 2, 1e-10)
+    near(run.columns("out_history.csv")["displacement P"][-1], 10 * (3 / 1000 + 4 / 500) / 2, 1e-11)
     near(got.interface("joint")["normal"], 10, 1e-10)
     near_all(run.columns("out_nodes.csv")["p"], 5, 1e-9)
     assert "is held, moved or guided already" in run.refused(changed(keys, {"bodies.high.support": "2:x"}))
@@ -556,13 +556,14 @@ def test_obstacles_move(run):
         alike(one[name], other[name], 1e-7 * 30)
     near(body_moves["total_dissipation"] / floor_moves["total_dissipation"], 1, 1e-8)
     one, other = run.columns("one_history.csv"), run.columns("other_history.csv")
-    for name in ("reaction D", "reaction S", "reaction T"):
-        assert len(one[name]) == len(other[name])
-        near(one[name][-1], other[name][-1], 1e-8)
+    # A function has no size, so that its reaction is work per unit of T.
+    for name, its, size in (("reaction D", "reaction D", 1), ("reaction S", "reaction S", 1), ("reaction per unit of T", "reaction T", 0.01)):
+        assert len(one[name]) == len(other[its])
+        near(one[name][-1], size * other[its][-1], 1e-8 * size / 0.02)
     # By the force on the pad, for the obstacle.
     force = floor_moves.interface("floor")
-    near(other["reaction S"][-1], -0.02 * force["force_x"], 1e-9)
-    near(other["reaction D"][-1], 0.03 * force["force_y"], 1e-8)
+    near(other["reaction S"][-1], -force["force_x"], 1e-9 / 0.02)
+    near(other["reaction D"][-1], force["force_y"], 1e-8 / 0.03)
     assert "unknown key 'z'" in run.refused(changed(keys, {"interfaces.floor.motion": {"D": {"z": 1}}}))
 
 
@@ -731,7 +732,7 @@ def test_shafts_of_two_parts_twist(run):
             near(stuck.interface("flat")["normal"], 3 * p * math.pi, 1e-9)
             # A shear that grows with r is right in the mean alone where nodes do not match.
             angle = T * 2.5 / (G * J)
-            near(run.columns("out_history.csv")["displacement T"][-1] / (T * angle), 1, 1e-9 if lower == "same.mesh" else 1e-6)
+            near(run.columns("out_history.csv")["displacement T"][-1] / angle, 1, 1e-9 if lower == "same.mesh" else 1e-6)
             losses.append(twisted(0.99 * most)["total_dissipation"])
             assert twisted(1.01 * most, code=2)["status"] == "gross sliding"
     # Nodes that match are paired if the first side has them, a union over interfaces if not.
@@ -996,3 +997,20 @@ def test_of_instances_of_a_deck_are_those_of_meshes(run):
     sentence = run.refused({**keys, "bodies": bodies, "interfaces": {"flat": face("upper:FACE", "below:FACE", 0.4)}})
     for word in ("body below (", "has 2 instances, UPPER, LOWER", "key 'part'"):
         assert word in sentence
+
+
+def test_check_lists_loads_of_guides_and_of_the_whole_thickness(run):
+    """A plate 10 deep: the forces on its guide as the case says them, a traction and a bolt over the depth. The bolt is at x = 1."""
+    run.block("plate.mesh", 0, 1, 4, 0, 1, 4)
+    guide = {"on": "3", "x": {"force": "Q", "value": 50}, "y": {"force": "P", "value": -100}, "rotation": {"moment": "M", "value": 7}}
+    case = {"thickness": 10, "bodies": {"plate": {**body("plate.mesh", None, ["T traction 4 0.5 0"]), "guides": [guide]}},
+            "interfaces": {"floor": {"between": ["plate:1"], "friction": 0.3}},
+            "bolts": {"B": {"between": ["plate:2[0.3<y<0.8]"], "direction": [0, 1], "stiffness": 100, "preload": 200}},
+            "history": ["P=0", "P=1", "B=1", "Q=1", "T=1", "M=1"]}
+    rows = {row["load"]: row for row in run.case(case, "--check")["loads"]}
+    for load, x, y, moment in (("Q", 50, 0, None), ("P", 0, -100, None), ("M", 0, 0, 7), ("T", 5, 0, -2.5), ("B", 0, -200, -200)):
+        row = rows[load]
+        near(row["x"], x, 1e-9)
+        near(row["y"], y, 1e-9)
+        assert row["moment"] is None if moment is None else abs(row["moment"] - moment) < 1e-9, row
+        assert row["nodes"] > 0

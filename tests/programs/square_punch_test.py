@@ -91,7 +91,7 @@ def test_loop_of_the_history_is_that_of_the_cycle(run):
     loop in it is what is printed."""
     got = run("square_punch", "-nodes", 41, "-shear", "0.5 0.9", "-cycles", 1, "-amplitude", 0.5, "-events", "--csv", run.folder / "loop")
     rows = run.columns("loop_history.csv")
-    time, Q, moved = rows["time"], rows["load Q"], rows["displacement Q"]
+    time, Q, moved = rows["time"], rows["load Q"], rows["displacement per unit of Q"]
     work = jumps = 0
     for k in range(1, len(time)):
         if time[k] == time[k - 1]:

@@ -502,6 +502,7 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    record.found_by = "event path";
    record.event = 9;
    ReducedProblem problem = four_springs();
+   problem.patterns[0].size = {"force", 2, {1, 0}, "a face"};
    ContactState state = ContactState::virgin(problem);
    state.dissipation = 8.2;
    record.multipliers = Eigen::Vector2d(0.1, -0.7);
@@ -542,8 +543,8 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
                                            {"residual_tangential", 1e-11},
                                            {"round_off", 1e-12},
                                            {"event", 9},
-                                           {"displacement P", 3.5},
-                                           {"displacement Q right", -4.5}};
+                                           {"displacement P", 1.75}, // of a force of 2
+                                           {"displacement per unit of Q right", -4.5}};
    std::map<std::string, double> expected = common;
    expected["forward_slip"] = 5;
    expected["backward_slip"] = 6;
@@ -572,10 +573,9 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    EXPECT_EQ(quoted.rfind("time,cycle,\"load bolt 1, w = 1\",\"load a \"\"b\"\"\",stick,", 0),
              0u)
       << quoted;
-   EXPECT_NE(
-      quoted.find(
-         ",\"displacement bolt 1, w = 1\",\"displacement a \"\"b\"\"\",found_by,event\n"),
-      std::string::npos)
+   EXPECT_NE(quoted.find(",\"displacement bolt 1, w = 1\",\"displacement per unit of a "
+                         "\"\"b\"\"\",found_by,event\n"),
+             std::string::npos)
       << quoted;
    problem.chains = {{"left, upper", 0, 2}, {"right", 2, 2}};
    write_nodes(folder + "/quoted.csv", problem, {ContactState::virgin(problem)});

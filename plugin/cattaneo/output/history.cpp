@@ -18,18 +18,38 @@ bool has_disc(const ReducedProblem &problem)
    return problem.components() == 2;
 }
 
+/// Sizes of the resultants of the loads at multiplier 1; 0 of those that have none or whose
+/// size is not known.
+Eigen::VectorXd resultants(const ReducedProblem &problem)
+{
+   Eigen::VectorXd sizes = Eigen::VectorXd::Zero(problem.patterns.size());
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const LoadSize &size = problem.patterns[k].size;
+      for (const char *kind :
+           {"force", "opposite forces", "displacement", "moment", "torque", "rotation", "bolt"})
+      {
+         if (size.kind == kind) { sizes[static_cast<Eigen::Index>(k)] = size.value; }
+      }
+   }
+   return sizes;
+}
+
 std::string history_header(const ReducedProblem &problem)
 {
    std::string loads, conjugates;
-   for (const LoadPattern &pattern : problem.patterns)
+   const Eigen::VectorXd sizes = resultants(problem);
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
+      const LoadPattern &pattern = problem.patterns[k];
       require(pattern.name.find_first_of("\n\r") == std::string::npos,
               "history table: load pattern '", pattern.name, "' has a line break in its name");
       loads += ',' + csv_field("load " + pattern.name);
       const std::string conjugate =
-         pattern.control == Control::force ? "displacement " : "reaction ";
-      conjugates +=
-         ',' + csv_field((problem.knows_loads() ? "" : "contact ") + conjugate + pattern.name);
+                           pattern.control == Control::force ? "displacement " : "reaction ",
+                        per = sizes[static_cast<Eigen::Index>(k)] > 0 ? "" : "per unit of ";
+      conjugates += ',' + csv_field((problem.knows_loads() ? "" : "contact ") + conjugate +
+                                    per + pattern.name);
    }
    return "time,cycle" + loads +
           (has_disc(problem) ? ",stick,separation,slip"
@@ -39,14 +59,10 @@ std::string history_header(const ReducedProblem &problem)
           conjugates + ",found_by,event";
 }
 
-Eigen::Index count_patterns(const ReducedProblem &problem)
+std::string history_row(const IncrementRecord &record, double lost,
+                        const Eigen::VectorXd &sizes, bool disc)
 {
-   return static_cast<Eigen::Index>(problem.patterns.size());
-}
-
-std::string history_row(const IncrementRecord &record, double lost, Eigen::Index patterns,
-                        bool disc)
-{
+   const Eigen::Index patterns = sizes.size();
    require(record.multipliers.size() == patterns && record.conjugates.size() == patterns,
            "history table: a record has ", record.multipliers.size(),
            " load multipliers, must have one for each of the ", patterns, " load patterns");
@@ -60,7 +76,10 @@ std::string history_row(const IncrementRecord &record, double lost, Eigen::Index
    out << ',' << record.dissipation << ',' << lost << ',' << record.external_work << ','
        << record.residual_normal << ',' << record.residual_tangential << ','
        << record.round_off;
-   for (double conjugate : record.conjugates) { out << ',' << conjugate; }
+   for (Eigen::Index k = 0; k < patterns; ++k)
+   {
+      out << ',' << (sizes[k] > 0 ? record.conjugates[k] / sizes[k] : record.conjugates[k]);
+   }
    out << ',' << csv_field(record.found_by) << ',' << record.event << '\n';
    return out.str();
 }
@@ -88,14 +107,13 @@ void check_goes_on(const std::string &file, const std::string &last, const Conta
 } // namespace
 
 HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &problem)
-   : patterns_(count_patterns(problem)), disc_(has_disc(problem)),
-     file_(file, history_header(problem))
+   : sizes_(resultants(problem)), disc_(has_disc(problem)), file_(file, history_header(problem))
 {
 }
 
 HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &problem,
                              const ContactState &from)
-   : patterns_(count_patterns(problem)), disc_(has_disc(problem)),
+   : sizes_(resultants(problem)), disc_(has_disc(problem)),
      file_(file, history_header(problem), from.time,
            [&](const std::string &last) { check_goes_on(file, last, from); })
 {
@@ -103,7 +121,7 @@ HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &prob
 
 void HistoryWriter::add(const ContactState &state, const IncrementRecord &record)
 {
-   file_.add(history_row(record, state.dissipation, patterns_, disc_));
+   file_.add(history_row(record, state.dissipation, sizes_, disc_));
 }
 
 namespace

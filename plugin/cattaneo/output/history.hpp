@@ -13,11 +13,14 @@ namespace cattaneo
        time, cycle, load multipliers (column "load NAME" each), numbers of nodes in stick,
        separation, forward and backward slip (with two tangents: slip), dissipation and external
        work of the increment, relative residuals normal and tangential, round_off (the smallest
-       residual that round-off allows), and the conjugate of each multiplier, see conjugates():
-       column "displacement NAME" of a force, "reaction NAME" of a prescribed displacement;
-       "contact displacement NAME" and "contact reaction NAME" if only the contact's part of it
-       is known (ReducedProblem::knows_loads). At last IncrementRecord::found_by and
-       IncrementRecord::event.
+       residual that round-off allows), and a column of each load: "displacement NAME" of a
+       force, "reaction NAME" of a prescribed displacement, "contact displacement NAME" and
+       "contact reaction NAME" if only the contact's part of it is known
+       (ReducedProblem::knows_loads). Where the resultant of the load is known
+       (LoadPattern::size), they are in the units of the problem: the displacement along the
+       force, the rotation by a moment in radians, how far the ends of a bolt come together.
+       Otherwise the column is "displacement per unit of NAME" or "reaction per unit of NAME"
+       and has conjugates(). At last IncrementRecord::found_by and IncrementRecord::event.
 
     add() can be used as a MarchObserver. Numbers are written so that they are read back to the
     last bit. Nothing is kept in memory. */
@@ -39,7 +42,7 @@ public:
    void add(const ContactState &state, const IncrementRecord &record);
 
 private:
-   Eigen::Index patterns_;
+   Eigen::VectorXd sizes_; ///< of the loads, see resultants() in history.cpp
    bool disc_;
    StreamedFile file_;
 };
