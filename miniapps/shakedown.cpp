@@ -32,6 +32,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 
 namespace miniapp
@@ -181,7 +182,16 @@ void Shakedown::options()
 
 void Shakedown::prepare()
 {
-   if (saved) { gapped = load_reduced_problem(reduced); }
+   if (saved)
+   {
+      gapped = load_reduced_problem(reduced);
+      std::vector<std::string> loads;
+      for (const LoadPattern &pattern : gapped.patterns) { loads.push_back(pattern.name); }
+      require(loads.size() <= 2 || study.options().says("cycled"), "'", reduced,
+              "' has the loads ", listed(loads),
+              ": option --cycled must name the one that is cycled, and --held the one that is "
+              "held");
+   }
    else
    {
       scene = make_punch(punch);

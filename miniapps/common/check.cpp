@@ -82,6 +82,35 @@ std::vector<AtNode> supports(const ElasticBody &body)
    return at_nodes(body, held);
 }
 
+/// What a load does to a guide, per thickness.
+struct OnGuide
+{
+   Vector2d force{0, 0};
+   double moment = 0;
+   std::size_t nodes = 0;
+};
+
+std::vector<OnGuide> on_guides(const ElasticBody &body, const std::string &load)
+{
+   std::vector<OnGuide> all;
+   for (const BlockMotion &block : body.blocks())
+   {
+      if (block.load != load) { continue; }
+      const std::vector<AtNode> nodes = at_nodes(body, block.motion);
+      const auto same = [&](const AtNode &at) { return at.value == nodes[0].value; };
+      OnGuide made;
+      made.nodes = nodes.size();
+      // All nodes move alike, or about a centre.
+      if (!nodes.empty() && std::all_of(nodes.begin(), nodes.end(), same))
+      {
+         made.force = block.force * Vector2d(nodes[0].value[0], nodes[0].value[1]);
+      }
+      else { made.moment = block.force; }
+      all.push_back(made);
+   }
+   return all;
+}
+
 std::string heading(const Reduction &reduction, std::size_t k)
 {
    const std::string &name = reduction.bodies[k].name;
@@ -150,12 +179,13 @@ void list_loads(Study &study, const Scene &scene)
    const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
+      const double thickness = scene.thickness.empty() ? 1 : scene.thickness[k];
       for (const BodyLoad &load : scene.bodies[k]->patterns())
       {
          const std::vector<AtNode> nodes = at_nodes(*scene.bodies[k], load.values);
-         const bool force = load.control == Control::force,
-                    plane = scene.bodies[k]->formulation() == Formulation::plane;
-         double x = 0, y = 0, moment = 0, all = 0, far = 0;
+         const bool force = load.control == Control::force;
+         bool moment_known = force && scene.bodies[k]->formulation() == Formulation::plane;
+         double x = 0, y = 0, moment = 0, all = 0, lever = 0, far = 0;
          for (const AtNode &at : nodes)
          {
             x += at.value[0];
@@ -164,10 +194,23 @@ void list_loads(Study &study, const Scene &scene)
             all += std::hypot(at.value[0], at.value[1]);
             far = std::max(far, at.position.norm());
          }
+         lever = all * far;
+         std::size_t count = nodes.size();
+         for (const OnGuide &guide : on_guides(*scene.bodies[k], load.name))
+         {
+            x += guide.force[0];
+            y += guide.force[1];
+            moment += guide.moment;
+            all += guide.force.norm();
+            count += guide.nodes;
+            // The place of the force on a guide is that of its bearing, which is not known.
+            moment_known = moment_known && guide.force.norm() == 0;
+            lever += std::abs(guide.moment);
+         }
          study.row(loads, {load.name, heading(reduction, k), force ? "forces" : "displacement",
-                           nodes.size(), force ? settled(x, all) : none,
-                           force ? settled(y, all) : none,
-                           plane && force ? settled(moment, all * far) : none});
+                           count, force ? thickness * settled(x, all) : none,
+                           force ? thickness * settled(y, all) : none,
+                           moment_known ? thickness * settled(moment, lever) : none});
       }
    }
    // Loads of a half-plane are far forces and bulk stresses. They act on no nodes.

@@ -562,7 +562,12 @@ std::string Options::called(const std::string &name) const
       changed_.count(name) > 0 ||
       std::any_of(given_.begin(), given_.end(),
                   [&](const Given &given) { return given.option->names.name == name; });
-   return says(name) && !typed ? "key '" + name + "'" : "option --" + name;
+   // A user of a case is told of its keys, also of those that it has not.
+   const bool of_case = std::any_of(options_.begin(), options_.end(),
+                                    [&](const Option &option)
+                                    { return option.names.name == name && option.in_cases; });
+   return !typed && (says(name) || (!case_file_.empty() && of_case)) ? "key '" + name + "'"
+                                                                     : "option --" + name;
 }
 
 void Options::change()

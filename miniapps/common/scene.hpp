@@ -19,7 +19,8 @@ struct Scene
    std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
    std::vector<std::unique_ptr<cattaneo::ElasticBody>> torsion; ///< on the same meshes, or none
    cattaneo::Reduction reduction;
-   int dofs = 0; ///< of all bodies
+   int dofs = 0;                  ///< of all bodies
+   std::vector<double> thickness; ///< of each body, by which its forces grow; empty: 1
 
    cattaneo::ReducedProblem &problem() { return reduction.problem; }
    const cattaneo::ReducedProblem &problem() const { return reduction.problem; }

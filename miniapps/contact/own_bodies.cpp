@@ -120,6 +120,8 @@ OwnBodies make_own_bodies(const JointCase &joint)
          if (before.line.size() == line.size()) { alike = &before; }
       }
       condensed.push_back(parts[b].named([&] { return parts[b].condensed(line, alike); }));
+      own.scene.thickness.push_back(
+         joint.formulation == Formulation::plane ? joint.thickness_of(static_cast<int>(b)) : 1);
       own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
       if (joint.formulation == Formulation::plane)
       {

@@ -24,14 +24,20 @@ std::vector<Material> materials(const JointCase::Body &body, int attributes, boo
    std::vector<double> young = body.young.values, poisson = body.poisson.values;
    const std::string both =
       body.source.called("young") + " and " + body.source.called("poisson");
+   for (const auto &[key, values] :
+        {std::pair("young", &young), std::pair("poisson", &poisson)})
+   {
+      require(values->size() <= 1 || values->size() <= static_cast<std::size_t>(attributes),
+              body.source.called(key), " has ", values->size(), " values, must have one",
+              attributes > 1 ? ", or one for each element attribute of the mesh, 1 to " +
+                                  std::to_string(attributes)
+                             : ": the elements of the mesh have one attribute, 1");
+   }
    const std::size_t count = std::max(young.size(), poisson.size());
    if (young.size() == 1) { young.resize(count, young[0]); }
    if (poisson.size() == 1) { poisson.resize(count, poisson[0]); }
    require(young.size() == poisson.size(), both, " have ", young.size(), " and ",
            poisson.size(), " values, must have as many (or one)");
-   require(count == 1 || count <= static_cast<std::size_t>(attributes), both, " have ", count,
-           " values, must have one, or one for each element attribute of the mesh, 1 to ",
-           attributes);
    std::vector<Material> list;
    for (std::size_t a = 0; a < count; ++a)
    {
@@ -507,6 +513,23 @@ void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
       });
 }
 
+namespace
+{
+
+ContactLine of_set(const JointCase::Side &side, const NodalStiffness &nodal, int order)
+{
+   try
+   {
+      return nodal.contact_line(nodal.nodes_of(side.part), order);
+   }
+   catch (const InputError &error)
+   {
+      throw InputError(side.called + " '" + side.part + "': " + error.what());
+   }
+}
+
+} // namespace
+
 ContactLine OwnPart::line(const JointCase::Side &side) const
 {
    require(!side.part.empty(), side.called, " is empty, must name boundary attributes");
@@ -516,7 +539,7 @@ ContactLine OwnPart::line(const JointCase::Side &side) const
       warn_of_cut_elements(*elastic_->space().GetMesh(), part, side.called, side.part);
    }
    ContactLine made =
-      nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part), body_.order)
+      nodal_ ? of_set(side, *nodal_, body_.order)
              : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
    made.as_meshed = body_.as_meshed;
    // The file has more information than the line alone.

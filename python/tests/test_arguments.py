@@ -113,6 +113,8 @@ SAID = [
     (lambda: wear.WearLaw([1, np.nan]), ValueError, r"coefficient\[1\] is nan, must be finite"),
     (lambda: wear.WearLaw([1.0, 2.0], threshold=[1.0]), ValueError, "threshold has 1 entries, must have 2"),
     (lambda: wear.WearLaw([1.0]).set(problem(), "", 2.0), ValueError, "wear law: 1 coefficients, must be one for each of the 2 contact nodes"),
+    (lambda: wear.WearLaw.uniform(problem(), -1.0), ValueError, "wear law: the coefficient is -1, must be finite and at least 0"),
+    (lambda: law().set(problem(), "", -1.0), ValueError, "wear law: the coefficient at interface '' is -1, must be finite and at least 0"),
     (lambda: wear.wear(problem(), law(), history(), 1.5), ValueError, "wear: cycles is 1.5, must be a whole number"),
     (lambda: wear.WearSettings(tolerance=1), ValueError, "tolerance is 1, must be 0 or from 1e-8 to 0.1"),
     (lambda: wear.WearSettings(update="never"), ValueError, "WearSettings.update is 'never', must be one of 'cycle', 'piece'"),

@@ -275,3 +275,8 @@ def test_marches_that_slide_say_at_which_loads(run):
         assert march["event_loads"]["P"] == 1
         near(march["event_loads"]["Q"], 0.85, 1e-6)
     assert "(P = 1, Q = 0.85): the loads exceed" in got.output
+
+
+def test_three_saved_loads_need_a_name(run):
+    """Of many loads nobody knows which one is cycled."""
+    run.refuses("shakedown", ["-reduced", "problems/bolt_row.json"], ["bolt_row.json' has the loads", "option --cycled must name"])

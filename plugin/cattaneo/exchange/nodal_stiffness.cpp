@@ -28,6 +28,9 @@ const char *directions_of(Formulation formulation)
    return formulation == Formulation::space ? ", must be 1, 2 or 3" : ", must be 1 or 2";
 }
 
+constexpr const char *on_side =
+   "a set of the nodes on the side alone is needed, and if this node is one of them, ";
+
 constexpr const char *leave_free =
    "leave it free in the program that writes the matrix, and fix or move it here";
 
@@ -434,7 +437,7 @@ ContactSurface NodalStiffness::contact_surface(const std::vector<Nodes> &on) con
       {
          const auto row = all.find({id, c + 1});
          require(row != all.end(), where, ": direction ", c + 1, " of node ", id,
-                 " has no row: ", leave_free);
+                 " has no row: ", on_side, leave_free);
          node.dofs[c] = row->second;
       }
       return node;
@@ -500,7 +503,7 @@ ContactLine NodalStiffness::contact_line(const Nodes &nodes, int order) const
          {
             const auto row = all.find({each.id, c + 1});
             require(row != all.end(), where, ": direction ", c + 1, " of node ", each.id,
-                    " has no row: ", leave_free);
+                    " has no row: ", on_side, leave_free);
             each.node.dofs[c] = row->second;
          }
       }

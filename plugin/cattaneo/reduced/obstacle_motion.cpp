@@ -5,6 +5,7 @@
 #include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 #include <map>
 #include <set>
@@ -30,13 +31,20 @@ std::string place_of(const ReducedProblem &problem, Index node)
    return place_text(place, in_space ? Formulation::space : Formulation::plane);
 }
 
-/// The beginning of messages about a pattern with this name. InputError if the name is empty,
-/// or if a pattern of the other kind has it already.
+/// The beginning of messages about a pattern with this name, of the obstacles at some
+/// interfaces. InputError if the name is empty, or if a pattern of the other kind has it
+/// already.
 std::string named_pattern(const ReducedProblem &problem, const std::string &name,
-                          Control control)
+                          Control control, const std::vector<std::string> &at)
 {
    require(!name.empty(), "obstacle motion: it has no name, must have one");
-   const std::string where = "obstacle motion '" + name + "'";
+   std::vector<std::string> faces;
+   for (const std::string &face : at)
+   {
+      if (!face.empty()) { faces.push_back("'" + face + "'"); }
+   }
+   const std::string where = "obstacle motion '" + name + "'" +
+                             (faces.empty() ? "" : " at interface " + listed(faces));
    for (const LoadPattern &pattern : problem.patterns)
    {
       require(pattern.name != name || pattern.control == control, where,
@@ -45,6 +53,22 @@ std::string named_pattern(const ReducedProblem &problem, const std::string &name
                                         : "force, not by displacement");
    }
    return where;
+}
+
+/// The names of the interfaces at which an obstacle moves.
+template <class Motions>
+std::vector<std::string> faces_of(const Motions &motions,
+                                  const std::vector<InterfaceReport> &interfaces)
+{
+   std::vector<std::string> names;
+   for (const ObstacleMotion &motion : motions)
+   {
+      if (motion.interface < interfaces.size())
+      {
+         names.push_back(interfaces[motion.interface].name);
+      }
+   }
+   return names;
 }
 
 /// Joins patterns from number `first` on, and their columns, with an earlier pattern of the
@@ -193,7 +217,8 @@ VectorXd Reduction::moved(const VectorXd &u, const VectorXd &multipliers) const
 void Reduction::add_obstacle_motion(const std::string &name,
                                     const std::vector<ObstacleMotion> &motions)
 {
-   const std::string where = named_pattern(problem, name, Control::displacement);
+   const std::string where =
+      named_pattern(problem, name, Control::displacement, faces_of(motions, interfaces));
    const Index n = problem.nodes(), m = problem.slips();
    const VectorXd d = displaced(where, motions);
    // The body moves by u + ℓ d: f = K (u + ℓ d) + …, and the reaction is dᵀ f.
@@ -242,9 +267,11 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
    for (Index a = 0; a < count; ++a)
    {
       const std::string &load = motions[a].load;
-      D.col(a) = displaced(load.empty() ? "free obstacle"
-                                        : named_pattern(problem, load, Control::force),
-                           motions[a].motions);
+      D.col(a) =
+         displaced(load.empty() ? "free obstacle"
+                                : named_pattern(problem, load, Control::force,
+                                                faces_of(motions[a].motions, interfaces)),
+                   motions[a].motions);
    }
    const MatrixXd KD = product(problem.K, D);
    const MatrixXd M = transposed_product(D, KD);

@@ -13,6 +13,8 @@ using Eigen::VectorXd;
 
 WearLaw WearLaw::uniform(const ReducedProblem &problem, double coefficient)
 {
+   require(std::isfinite(coefficient) && coefficient >= 0, "wear law: the coefficient is ",
+           coefficient, ", must be finite and at least 0");
    WearLaw law;
    law.coefficient = VectorXd::Constant(problem.nodes(), coefficient);
    return law;
@@ -23,6 +25,9 @@ void WearLaw::set(const ReducedProblem &problem, const std::string &interface,
 {
    require(coefficient.size() == problem.nodes(), "wear law: ", coefficient.size(),
            " coefficients, must be one for each of the ", problem.nodes(), " contact nodes");
+   require(std::isfinite(coefficient_there) && coefficient_there >= 0,
+           "wear law: the coefficient at interface '", interface, "' is ", coefficient_there,
+           ", must be finite and at least 0");
    bool found = false;
    std::set<std::string> names;
    for (const ContactChain &chain : problem.chains)
