@@ -4,6 +4,7 @@
 #include <cattaneo/algebra/blas_kernels.hpp>
 #include <cattaneo/algebra/least_squares.hpp>
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/condense_joint.hpp>
 #include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/design/design.hpp>
 #include <cattaneo/design/edge_response.hpp>

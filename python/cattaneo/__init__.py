@@ -63,6 +63,7 @@ from ._core import (
     blas_kernels as blas_kernels,
     can_lock as can_lock,
     condense as condense,
+    condense_joint as condense_joint,
     conjugates as conjugates,
     critical_friction as critical_friction,
     gaps_to_cylinder as gaps_to_cylinder,

@@ -3,8 +3,10 @@
 #include "watch.hpp"
 #include "words.hpp"
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/condense_joint.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/halfplane/half_plane_field.hpp>
+#include <cattaneo/reduced/pairing.hpp>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -161,6 +163,37 @@ void bind_half_planes(nb::module_ &m)
       arg("body"), arg("surface"),
       "Condenses a body in space to the nodes of a surface.\n\nsurface: from "
       "body.contact_surface().");
+   m.def(
+      "condense_joint",
+      [](const NodalStiffness &body1, const ContactSurface &surface1,
+         const NodalStiffness &body2, const ContactSurface &surface2, const Pairing &pairing)
+      {
+         const AssembledBody one = body1.body(), other = body2.body();
+         const ContactSurface first = surface1, second = surface2;
+         const std::vector<int> partner = pairing.partner;
+         for (const AssembledBody *body : {&one, &other})
+         {
+            const std::string gone =
+               body->grounded ? body->eliminated_warning() : std::string();
+            if (!gone.empty()) { warn("condense joint: " + gone); }
+         }
+         CondensedBody result =
+            unlocked([&] { return condense_joint(one, first, other, second, partner); });
+         result.name = body1.name + " on " + body2.name;
+         return warned(std::move(result));
+      },
+      arg("body1"), arg("surface1"), arg("body2"), arg("surface2"), arg("pairing"),
+      "Condenses two bodies in space together, in relative coordinates. Only the relative "
+      "displacements of their contact nodes are kept, half as many rows as of both bodies "
+      "alone. "
+      "The result stands for the joint as one body: reduce(joint, pairing.gap). Its forces are "
+      "those on body1, and displacement(0, …) has the rows of body1, then those of body2. "
+      "Loads "
+      "of one name are one load.\n\nbody1: may be free. surface1: from "
+      "body1.contact_surface(). body2: must be held by its supports. surface2: its surface. "
+      "pairing: pair_surfaces(surface1, surface2). InputError if supports hold a contact node "
+      "of "
+      "body1 alone, or a load moves one.");
    m.def(
       "condense",
       [](const HalfPlane &body, const ContactLine &line)

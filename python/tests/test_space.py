@@ -357,3 +357,77 @@ def test_equilibrium_in_long_double_and_restart():
         external[condensed[number].surface.dofs] += reduction.contact_forces(number, state)
         free = np.setdiff1d(np.arange(K.shape[0]), body.fixed)
         assert np.abs(internal - external)[free].max() < 2e-12 * np.abs(external).max()
+
+
+def test_support_that_moves_with_contact_nodes():
+    """A side of the upper block, contact nodes among it, is moved to and fro: supports are where the load is, each row without a support is in equilibrium, and the laws hold."""
+    skfem = pytest.importorskip("skfem")
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    x, z = np.linspace(0, 2, 4), np.linspace(0, 1, 3)
+    for make, element in (
+        (skfem.MeshHex, skfem.ElementHex1()),
+        (skfem.MeshHex, skfem.ElementHexS2()),
+        (skfem.MeshTet, skfem.ElementTetP2()),
+    ):
+        bodies = []
+        for low, high, young in ((-1, 0, 3.0), (0, 1, 1.0)):
+            basis = skfem.Basis(make.init_tensor(x, np.linspace(low, high, 3), z), skfem.ElementVector(element), intorder=4)
+            K = linear_elasticity(*lame_parameters(young, 0.3)).assemble(basis)
+            elements = basis.element_dofs.T[:, ::3] // 3
+            if make is skfem.MeshHex:
+                elements[:, :8] = elements[:, CORNERS]
+            bodies.append(cattaneo.NodalStiffness(K, basis.doflocs.T[::3], elements=elements))
+        lower, upper = bodies
+        lower.fix(lower.places[:, 1] == -1, "xyz")
+        side = upper.places[:, 0] == 0
+        upper.add_displacement("U", side, "x", 1.0)
+        upper.fix(upper.places[:, 2] == 0, "z")
+        lower.fix(lower.places[:, 2] == 0, "z")
+        upper.add_traction("P", upper.places[:, 1] == 1, (0, -0.05, 0))
+        condensed = [cattaneo.condense(body, body.contact_surface(body.places[:, 1] == 0)) for body in (upper, lower)]
+        reduction = cattaneo.reduce(*condensed)
+        problem = reduction.problem
+        problem.friction = 0.3
+        report = cattaneo.march(problem, [{}, {"P": 1}, {"U": 0.05}, {"U": -0.02}], increments=4, keep_states=True)
+        state = report.state
+        n = problem.nodes
+        q, free = np.hypot(*state.q.reshape(2, n)), np.setdiff1d(np.arange(n), np.asarray(problem.held) % n)
+        assert (state.p > -1e-12).all() and (q[free] <= 0.3 * state.p[free] + 1e-12).all()
+        assert (q[free] > 0.29 * state.p[free]).sum() > 3
+        multipliers = dict(zip((load.name for load in problem.patterns), state.multipliers))
+        for number, body in enumerate((upper, lower)):
+            u = reduction.displacement(number, state)
+            if number == 0:
+                assert u[body.dofs[side, 0]] == pytest.approx(-0.02)
+            external = np.zeros(len(u))
+            if number == 0:
+                external += multipliers["P"] * body.loads["P"]
+            external[condensed[number].surface.dofs] += reduction.contact_forces(number, state)
+            rows = np.setdiff1d(np.arange(len(u)), body.fixed)
+            assert (body.K @ u - external)[rows] == pytest.approx(0, abs=1e-13)
+        # The work of all loads, that of the support's reaction among it, is stored or lost, to second order in the increments.
+        finer = cattaneo.march(problem, [{}, {"P": 1}, {"U": 0.05}, {"U": -0.02}], increments=16)
+        assert abs(finer.energy_imbalance) < abs(report.energy_imbalance) / 8
+
+
+def test_joint_in_relative_coordinates():
+    """Two blocks condensed together have the forces and displacements of both condensed alone, with half the rows."""
+    x, z = np.linspace(0, 2, 5), np.linspace(0, 1, 4)
+    lower, upper = block(x, np.linspace(-1, 0, 3), z, 5, 0.2, "lower"), block(x, np.linspace(0, 1, 3), z, 1, 0.3, "upper")
+    pressed(lower, upper, {"all": "xyz", "P": (0, -1, 0), "Q": (0.6, 0, 0.8)})
+    faces = [body.contact_surface(body.places[:, 1] == 0) for body in (upper, lower)]
+    pairs = cattaneo.pair_surfaces(*faces)
+    joint = cattaneo.condense_joint(upper, faces[0], lower, faces[1], pairs)
+    assert joint.S.shape == (3 * len(faces[0]), 3 * len(faces[0]))
+    together = cattaneo.reduce(joint, pairs.gap)
+    alone = cattaneo.reduce(cattaneo.condense(upper, faces[0]), cattaneo.condense(lower, faces[1]), pairs)
+    states = []
+    for reduction in (together, alone):
+        reduction.problem.friction = 0.3
+        states.append(cattaneo.march(reduction.problem, [{}, {"P": 1}, {"Q": 0.28}, {"Q": -0.2}], increments=2).state)
+    assert together.contact_forces(0, states[0]) == pytest.approx(alone.contact_forces(0, states[1]), abs=1e-12)
+    apart = np.concatenate([alone.displacement(number, states[1]) for number in (0, 1)])
+    assert together.displacement(0, states[0]) == pytest.approx(apart, abs=1e-12)
+    with pytest.raises(cattaneo.InputError, match="second body free"):
+        cattaneo.condense_joint(lower, faces[1], upper, faces[0], cattaneo.pair_surfaces(faces[1], faces[0]))

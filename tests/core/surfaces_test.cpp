@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/condense_joint.hpp>
 #include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/exchange/outer_edges.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
@@ -511,15 +512,21 @@ TEST(Surfaces, PressureGoesThroughMatchingFaces)
    }
 }
 
-TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOne)
+namespace
 {
-   // A block is pressed on another one and sheared to and fro, in plane strain.
+
+/** Two extruded blocks pressed and sheared to and fro, against the plane problem: contact
+   forces and openings to 1e-10. With Poisson's ratios supports hold plane strain, so that the
+   blocks stand along axes. Without (`held` false) nothing resists, and they may be turned. */
+void compare_extruded(const std::vector<Matrix3d> &turns, bool held)
+{
    const Vector3d low(0, -1, 0), up(0, 0, 0);
-   const double friction = 0.4, thick = 0.7;
+   const double friction = 0.4, thick = 0.7, of_upper = held ? 0.3 : 0,
+                of_lower = held ? 0.2 : 0;
    const std::vector<Eigen::Vector2d> path = {{1, 0},    {1, 0.2}, {1, 0.3},
                                               {1, 0.36}, {1, 0.1}, {1, -0.33}};
-   NodalStiffness above = plane_block(6, 3, up, {3, 2, 0}, 2, 0.3),
-                  below = plane_block(6, 3, low, {3, 1, 0}, 5, 0.2);
+   NodalStiffness above = plane_block(6, 3, up, {3, 2, 0}, 2, of_upper),
+                  below = plane_block(6, 3, low, {3, 1, 0}, 5, of_lower);
    for (int c : {1, 2}) { below.fix(below.nodes_of("BOTTOM"), c); }
    above.add_traction("P", above.nodes_of("TOP"), Eigen::Vector2d(0, -1));
    above.add_traction("Q", above.nodes_of("TOP"), Eigen::Vector2d(1, 0));
@@ -542,22 +549,17 @@ TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOne)
    ASSERT_TRUE(slipping > 0 && open > 0 && sticking > 0) << slipping << open << sticking;
    for (const int layers : {1, 3})
    {
-      // Turned so that x, y, z are y, z, x, and so on: supports stay along axes.
-      Matrix3d turn = Matrix3d::Identity();
-      for (int way = 0; way < 3; ++way)
+      for (const Matrix3d &turn : turns)
       {
-         Matrix3d next;
-         next << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-         if (way > 0) { turn = next * turn; }
-         NodalStiffness upper = block({6, 3, layers}, up, {3, 2, thick}, 2, 0.3,
+         NodalStiffness upper = block({6, 3, layers}, up, {3, 2, thick}, 2, of_upper,
                                       Solid::hexahedra, turn),
-                        lower = block({6, 3, layers}, low, {3, 1, thick}, 5, 0.2,
+                        lower = block({6, 3, layers}, low, {3, 1, thick}, 5, of_lower,
                                       Solid::hexahedra, turn);
          int through = 0;
          turn.col(2).maxCoeff(&through);
          for (NodalStiffness *body : {&upper, &lower})
          {
-            body->fix(body->nodes_of("ALL"), through + 1);
+            if (held) { body->fix(body->nodes_of("ALL"), through + 1); }
          }
          for (int c : {1, 2, 3}) { lower.fix(lower.nodes_of("BOTTOM"), c); }
          upper.add_surface_traction("P", upper.nodes_of("TOP"), Vector3d(-turn.col(1)));
@@ -568,7 +570,7 @@ TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOne)
             reduce(first, second, pair_surfaces(first.surface, second.surface));
          const ReducedProblem &problem = reduction.problem;
          ASSERT_EQ(problem.nodes(), n * (layers + 1));
-         EXPECT_EQ(problem.held.size(), static_cast<std::size_t>(problem.nodes()));
+         EXPECT_EQ(static_cast<Eigen::Index>(problem.held.size()), held ? problem.nodes() : 0);
          const std::vector<ContactState> states = solved(problem, friction, loads);
          for (std::size_t k = 0; k < states.size(); ++k)
          {
@@ -585,12 +587,27 @@ TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOne)
                const Vector3d force = turn.transpose() * forces.row(i).transpose();
                EXPECT_NEAR(force[0], share * flat(m, 0), 1e-10 * most);
                EXPECT_NEAR(force[1], share * flat(m, 1), 1e-10 * most);
-               EXPECT_EQ(force[2], 0);
+               EXPECT_NEAR(force[2], 0, held ? 0 : 1e-10 * most);
                EXPECT_NEAR(states[k].w[i], expected[k].w[m], 1e-10 * largest(expected[k].w));
             }
          }
       }
    }
+}
+
+} // namespace
+
+TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOne)
+{
+   // Turned so that x, y, z are y, z, x, and so on: supports stay along axes.
+   Matrix3d next;
+   next << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+   compare_extruded({Matrix3d::Identity(), next, next * next}, true);
+}
+
+TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOneHoweverItIsTurned)
+{
+   compare_extruded({Matrix3d::Identity(), askew, askew * askew}, false);
 }
 
 TEST(Surfaces, TurnedBodiesHaveTheSameContact)
@@ -684,24 +701,28 @@ TEST(Surfaces, DissectionAndMinimumDegreeGiveTheSameStiffness)
    EXPECT_LT(difference(dissected.solve(rhs), by_degree.solve(rhs)), 1e-12);
 }
 
-TEST(Surfaces, MatrixMarketFilesKeepBodiesInSpace)
+TEST(Surfaces, FilesKeepBodiesInSpace)
 {
    NodalStiffness body = block({2, 1, 1}, {0, 0, 0}, {2, 1, 1}, 1, 0.3, Solid::wedges, askew);
    for (int c : {1, 2, 3}) { body.fix(body.nodes_of("TOP"), c); }
    body.add_forces("F", {0}, 3, 2.5);
-   const std::string file = "surfaces_test.mtx";
-   write_matrix_market(file, body);
-   const NodalStiffness read = read_stiffness(file);
-   EXPECT_EQ(read.formulation, Formulation::space);
-   EXPECT_EQ(read.z, body.z);
-   EXPECT_EQ(read.faces, body.faces);
-   EXPECT_EQ(read.fixed, body.fixed);
-   EXPECT_LT(difference(MatrixXd(read.K), MatrixXd(body.K)), 1e-15);
-   EXPECT_EQ(read.loads.at(0).values, body.loads.at(0).values);
-   const MatrixXd S = on_surface(body, "BOTTOM").S;
-   EXPECT_LT(difference(on_surface(read, "BOTTOM").S, S), 1e-13);
+   for (const std::string file : {"surfaces_test.mtx", "surfaces_test.npz"})
+   {
+      if (file.back() == 'x') { write_matrix_market(file, body); }
+      else { write_npz(file, body); }
+      const NodalStiffness read = read_stiffness(file);
+      EXPECT_EQ(read.formulation, Formulation::space);
+      EXPECT_EQ(read.z, body.z);
+      EXPECT_EQ(read.places, body.places);
+      EXPECT_EQ(read.faces, body.faces);
+      EXPECT_EQ(read.fixed, body.fixed);
+      EXPECT_EQ(read.sets, body.sets);
+      EXPECT_LT(difference(MatrixXd(read.K), MatrixXd(body.K)), 1e-15);
+      EXPECT_EQ(read.loads.at(0).values, body.loads.at(0).values);
+      EXPECT_LT(difference(on_surface(read, "BOTTOM").S, on_surface(body, "BOTTOM").S), 1e-13);
+      std::filesystem::remove(file);
+   }
    expect_input_error([&] { write_abaqus("surfaces_test.inp", body); }, "is in space");
-   std::filesystem::remove(file);
    std::filesystem::remove("surfaces_test.dofs");
 }
 
@@ -713,7 +734,7 @@ TEST(Surfaces, WrongSurfacesAreRefused)
       [&] {
          body.contact_surface(std::vector<Nodes>{{0, 1}});
       },
-      "has 2 nodes, must have 3, 4, 6, 8 or 9");
+      "has 2 nodes, must have 3, 4, 6, 8, 9, 10 or 16");
    expect_input_error(
       [&] {
          body.contact_surface(std::vector<Nodes>{{0, 1, 2}});
@@ -1268,5 +1289,535 @@ TEST(Surfaces, TwoBodiesAreOneCondensedInRelativeCoordinates)
       VectorXd forces(3 * n);
       forces << problem.patterns[0].q, problem.patterns[0].p;
       EXPECT_LT(difference(forces, VectorXd(-R * g)), 1e-12);
+      // 3. The product does the same without the second dense matrix.
+      const CondensedBody joint = condense_joint(upper.body(), above.surface, lower.body(),
+                                                 below.surface, pairs.partner);
+      EXPECT_EQ(joint.S.rows(), 3 * n);
+      EXPECT_EQ(joint.rigid_modes, 6);
+      Reduction relative = reduce(joint, pairs.gap), both_bodies = reduction;
+      const ReducedProblem &its = relative.problem;
+      EXPECT_LT(difference(its.K, problem.K), 1e-12);
+      EXPECT_LT(difference(its.patterns[0].p, problem.patterns[0].p), 1e-12);
+      EXPECT_LT(difference(its.patterns[0].q, problem.patterns[0].q), 1e-12);
+      EXPECT_LT(difference(its.weights, problem.weights), 1e-14);
+      EXPECT_LT(difference(its.H, problem.H), 1e-12);
+      EXPECT_EQ(its.rigid_motions.cols(), 6);
+      VectorXd v(2 * n), w(n), load = VectorXd::Constant(1, 0.7);
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         v[i] = std::sin(i + 1.0);
+         v[n + i] = std::cos(3.0 * i);
+         w[i] = std::sin(2.0 * i);
+      }
+      VectorXd apart(both);
+      apart << both_bodies.displacement(0, v, w, load), both_bodies.displacement(1, v, w, load);
+      EXPECT_LT(difference(relative.displacement(0, v, w, load), apart), 1e-11);
    }
+   // Supports that hold contact nodes of both bodies or of the second one alone, loads of both,
+   // and what cannot be.
+   NodalStiffness upper = block({2, 1, 2}, {0, 0, 0}, {2, 1, 2}, 1, 0.3),
+                  lower = block({2, 1, 2}, {0, -1, 0}, {2, 1, 2}, 4, 0.2);
+   for (int c : {1, 2, 3}) { lower.fix(lower.nodes_of("BOTTOM"), c); }
+   const auto side_of = [](const NodalStiffness &body, double x)
+   {
+      Nodes found;
+      for (const auto &[node, place] : body.places)
+      {
+         if (place[0] == x) { found.push_back(node); }
+      }
+      return found;
+   };
+   const NodalStiffness free_upper = upper;
+   upper.fix(side_of(upper, 0), 1);
+   lower.fix(side_of(lower, 0), 1);
+   lower.fix(side_of(lower, 2), 3);
+   upper.add_surface_traction("P", upper.nodes_of("TOP"), {0.1, -1, 0.05});
+   upper.add_forces("Q", upper.nodes_of("BOTTOM"), 3, 0.1);
+   lower.add_forces("Q", lower.nodes_of("TOP"), 3, 0.2);
+   lower.add_displacement("U", lower.nodes_of("BOTTOM"), 2, 0.3);
+   const CondensedBody above = on_surface(upper, "BOTTOM"), below = on_surface(lower, "TOP");
+   const Pairing pairs = pair_surfaces(above.surface, below.surface);
+   const Reduction apart = reduce(above, below, pairs),
+                   together = reduce(condense_joint(upper.body(), above.surface, lower.body(),
+                                                    below.surface, pairs.partner),
+                                     pairs.gap);
+   EXPECT_EQ(together.problem.held, apart.problem.held);
+   const std::vector<VectorXd> path = {Vector3d(1, 0, 0), Vector3d(1, 0.5, 0.01),
+                                       Vector3d(1, -0.5, 0.02)};
+   const std::vector<ContactState> one = solved(apart.problem, 0.3, path),
+                                   other = solved(together.problem, 0.3, path);
+   for (std::size_t k = 0; k < path.size(); ++k)
+   {
+      EXPECT_LT(difference(together.contact_forces(0, other[k].q, other[k].p),
+                           apart.contact_forces(0, one[k].q, one[k].p)),
+                1e-10);
+   }
+   const auto joined_by = [](const NodalStiffness &first, const NodalStiffness &second)
+   {
+      const ContactSurface on = first.contact_surface(first.nodes_of("BOTTOM")),
+                           under = second.contact_surface(second.nodes_of("TOP"));
+      return condense_joint(first.body(), on, second.body(), under,
+                            pair_surfaces(on, under).partner);
+   };
+   NodalStiffness alone = upper, loose = lower, driven = upper;
+   alone.fix(alone.nodes_of("BOTTOM"), 3);
+   expect_input_error([&] { joined_by(alone, lower); }, "in the first body alone");
+   loose.fixed.clear();
+   loose.loads.clear();
+   expect_input_error([&] { joined_by(free_upper, loose); },
+                      "rigid motion(s) of the second body");
+   driven.add_displacement("D", side_of(driven, 0), 1, 0.1);
+   expect_input_error([&] { joined_by(driven, lower); }, "moves the contact node");
+}
+
+namespace
+{
+
+/// A block of elements of order 3, hexahedra of 64 nodes or tetrahedra of 20, which share all
+/// nodes, with sets and faces BOTTOM and TOP.
+NodalStiffness cubic_block(std::array<int, 3> cells, const Vector3d &from, const Vector3d &size,
+                           double E, bool hexahedra, const Matrix3d &turn)
+{
+   using Place = std::array<int, 3>; // in thirds of cells
+   const auto [nx, ny, nz] = cells;
+   const auto number = [nx = 3 * nx + 1, ny = 3 * ny + 1](const Place &at)
+   { return at[0] + nx * (at[1] + ny * at[2]); };
+   NodalStiffness made;
+   made.formulation = Formulation::space;
+   std::vector<Vector3d> places((3 * nx + 1) * (3 * ny + 1) * (3 * nz + 1));
+   std::vector<std::pair<std::vector<Place>, bool>> solids; // corners
+   for (int i = 0; i <= 3 * nx; ++i)
+   {
+      for (int j = 0; j <= 3 * ny; ++j)
+      {
+         for (int k = 0; k <= 3 * nz; ++k)
+         {
+            const int id = number({i, j, k});
+            const Vector3d share(i / (3. * nx), j / (3. * ny), k / (3. * nz));
+            places[id] = turn * (from + share.cwiseProduct(size));
+            made.places[id] = places[id].head(2);
+            made.z[id] = places[id][2];
+            for (int c = 1; c <= 3; ++c) { made.dofs.push_back({id, c}); }
+            if (j == 0) { made.sets["BOTTOM"].push_back(id); }
+            if (j == 3 * ny) { made.sets["TOP"].push_back(id); }
+         }
+      }
+   }
+   std::sort(made.dofs.begin(), made.dofs.end());
+   const int corner[8][3] = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0},
+                             {0, 0, 3}, {3, 0, 3}, {3, 3, 3}, {0, 3, 3}};
+   std::vector<std::vector<Place>> of_solids;
+   for (int cell = 0; cell < nx * ny * nz; ++cell)
+   {
+      std::vector<Place> all;
+      for (const auto &at : corner)
+      {
+         all.push_back({3 * (cell % nx) + at[0], 3 * (cell / nx % ny) + at[1],
+                        3 * (cell / nx / ny) + at[2]});
+      }
+      if (hexahedra)
+      {
+         of_solids.push_back(all);
+         continue;
+      }
+      const int way[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
+      for (const auto &[s, t] : way) { of_solids.push_back({all[0], all[s], all[t], all[6]}); }
+   }
+   // 1. Monomials at the nodes of one element, whose parameters are thirds.
+   std::vector<Place> thirds;
+   for (int i = 0; i <= 3; ++i)
+   {
+      for (int j = 0; j <= 3; ++j)
+      {
+         for (int k = 0; k <= 3; ++k)
+         {
+            if (hexahedra || i + j + k <= 3) { thirds.push_back({i, j, k}); }
+         }
+      }
+   }
+   const auto n = static_cast<Eigen::Index>(thirds.size());
+   const auto power = [](double x, int of) { return of < 0 ? 0 : std::pow(x, of); };
+   const auto monomial = [&](const Place &of, const Vector3d &at)
+   { return power(at[0], of[0]) * power(at[1], of[1]) * power(at[2], of[2]); };
+   MatrixXd values(n, n);
+   for (Eigen::Index m = 0; m < n; ++m)
+   {
+      for (Eigen::Index a = 0; a < n; ++a)
+      {
+         values(m, a) =
+            monomial(thirds[m], Vector3d(thirds[a][0], thirds[a][1], thirds[a][2]) / 3);
+      }
+   }
+   const Eigen::PartialPivLU<MatrixXd> basis(values);
+   // 2. Four points a direction; of tetrahedra one side of a cube is a point.
+   const double inner = std::sqrt(3. / 7 - 2. / 7 * std::sqrt(1.2)),
+                outer = std::sqrt(3. / 7 + 2. / 7 * std::sqrt(1.2)),
+                one[] = {(1 - outer) / 2, (1 - inner) / 2, (1 + inner) / 2, (1 + outer) / 2},
+                large = (18 + std::sqrt(30.)) / 72, small = (18 - std::sqrt(30.)) / 72,
+                its[] = {small, large, large, small};
+   std::vector<std::pair<MatrixXd, double>> points; // gradients by parameters, weight
+   for (int k = 0; k < 64; ++k)
+   {
+      const double a = one[k / 16], b = one[k / 4 % 4], c = one[k % 4],
+                   cube = its[k / 16] * its[k / 4 % 4] * its[k % 4];
+      Vector3d at(a, b, c);
+      double weight = cube;
+      if (!hexahedra)
+      {
+         at = {a, (1 - a) * b, (1 - a) * (1 - b) * c};
+         weight *= (1 - a) * (1 - a) * (1 - b);
+      }
+      MatrixXd slopes(n, 3);
+      for (Eigen::Index m = 0; m < n; ++m)
+      {
+         for (int d = 0; d < 3; ++d)
+         {
+            Place lower = thirds[m];
+            slopes(m, d) = lower[d] * monomial((--lower[d], lower), at);
+         }
+      }
+      points.emplace_back(basis.solve(slopes), weight);
+   }
+   // 3. Elements are parallelepipeds or straight tetrahedra; Poisson's ratio is 0.
+   std::vector<Eigen::Triplet<double>> entries;
+   for (const std::vector<Place> &solid : of_solids)
+   {
+      const int along[3] = {1, hexahedra ? 3 : 2, hexahedra ? 4 : 3};
+      Matrix3d J;
+      std::vector<int> ids;
+      for (int d = 0; d < 3; ++d)
+      {
+         J.col(d) = places[number(solid[along[d]])] - places[number(solid[0])];
+      }
+      for (const Place &at : thirds)
+      {
+         Place here = solid[0];
+         for (int d = 0; d < 3; ++d)
+         {
+            for (int c = 0; c < 3; ++c)
+            {
+               here[c] += at[d] * (solid[along[d]][c] - solid[0][c]) / 3;
+            }
+         }
+         ids.push_back(number(here));
+      }
+      for (const auto &[slopes, weight] : points)
+      {
+         const MatrixXd B = slopes * J.inverse();
+         const double volume = weight * std::abs(J.determinant());
+         for (Eigen::Index a = 0; a < n; ++a)
+         {
+            for (Eigen::Index b = 0; b < n; ++b)
+            {
+               const Matrix3d block = 0.5 * E * volume *
+                                      (B.row(b).transpose() * B.row(a) +
+                                       B.row(a).dot(B.row(b)) * MatrixXd::Identity(3, 3));
+               for (int c = 0; c < 9; ++c)
+               {
+                  entries.emplace_back(3 * ids[a] + c / 3, 3 * ids[b] + c % 3,
+                                       block(c / 3, c % 3));
+               }
+            }
+         }
+      }
+      // 4. Faces on top and bottom, by their corners.
+      std::vector<std::vector<int>> sides = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+      if (hexahedra) { sides = {{0, 1, 5, 4}, {3, 7, 6, 2}}; }
+      for (const std::vector<int> &side : sides)
+      {
+         const Place &a = solid[side[0]], &b = solid[side[1]], &c = solid[side[2]];
+         if (a[1] != b[1] || b[1] != c[1] || a[1] % (3 * ny) != 0) { continue; }
+         const auto at = [&](int i, int j)
+         {
+            // From the first corner along the first edge and the last one.
+            const Place &last = solid[side.back()];
+            Place here = a;
+            for (int d = 0; d < 3; ++d)
+            {
+               here[d] += (i * (b[d] - a[d]) + j * (last[d] - a[d])) / 3;
+            }
+            return number(here);
+         };
+         if (hexahedra)
+         {
+            made.faces.push_back({at(0, 0), at(3, 0), at(3, 3), at(0, 3), at(1, 0), at(2, 0),
+                                  at(3, 1), at(3, 2), at(2, 3), at(1, 3), at(0, 2), at(0, 1),
+                                  at(1, 1), at(2, 1), at(2, 2), at(1, 2)});
+         }
+         else
+         {
+            made.faces.push_back({at(0, 0), at(3, 0), at(0, 3), at(1, 0), at(2, 0), at(2, 1),
+                                  at(1, 2), at(0, 2), at(0, 1), at(1, 1)});
+         }
+      }
+   }
+   const auto rows = static_cast<Eigen::Index>(3 * places.size());
+   made.K.resize(rows, rows);
+   made.K.setFromTriplets(entries.begin(), entries.end());
+   return made;
+}
+
+} // namespace
+
+TEST(Surfaces, FacesOfOrderThreeAreTakenAsTheyAre)
+{
+   const double E = 3, pressure = 0.02;
+   for (const bool hexahedra : {false, true})
+   {
+      NodalStiffness upper = cubic_block({2, 1, 1}, {0, 0, 0}, {2, 1, 1}, E, hexahedra, askew),
+                     lower =
+                        cubic_block({2, 1, 1}, {0, -1, 0}, {2, 1, 1}, 2 * E, hexahedra, askew);
+      // 1. Weights of a corner, a node of an edge and one inside, over the area of a face:
+      // those of the rule of three eighths, and of its like on triangles.
+      const std::vector<int> face = upper.faces[0];
+      const ContactSurface alone = upper.contact_surface(std::vector<std::vector<int>>{face});
+      const double area = hexahedra ? 1 : 0.5, corner = hexahedra ? 1. / 64 : 1. / 30,
+                   edge = hexahedra ? 3. / 64 : 3. / 40, inside = hexahedra ? 9. / 64 : 9. / 20;
+      const Eigen::Index corners = hexahedra ? 4 : 3;
+      for (Eigen::Index i = 0; i < alone.size(); ++i)
+      {
+         const double share = i < corners ? corner : i < 3 * corners ? edge : inside;
+         EXPECT_NEAR(alone.nodes[i].weight, share * area, 1e-14);
+      }
+      // 2. The other way round it is the same face.
+      std::vector<int> round = face;
+      std::reverse(round.begin(), round.begin() + corners);
+      std::reverse(round.begin() + corners, round.begin() + 3 * corners);
+      std::rotate(round.begin() + corners, round.begin() + corners + 2,
+                  round.begin() + 3 * corners);
+      std::reverse(round.begin() + 3 * corners, round.end());
+      const ContactSurface other = upper.contact_surface(std::vector<std::vector<int>>{round});
+      const auto dofs_around = [](const ContactSurface &surface)
+      {
+         std::vector<std::array<int, 3>> dofs;
+         for (Eigen::Index node : surface.faces[0])
+         {
+            dofs.push_back(surface.nodes[node].dofs);
+         }
+         const auto first = static_cast<std::ptrdiff_t>(
+            std::min_element(dofs.begin(), dofs.begin() + (dofs.size() == 10 ? 3 : 4)) -
+            dofs.begin());
+         return std::pair(dofs[first], dofs);
+      };
+      // Seen from the body both turn counter-clockwise; each node beside the same corner.
+      EXPECT_EQ(dofs_around(alone).first, dofs_around(other).first);
+      for (const ContactSurface *each : {&alone, &other})
+      {
+         const std::vector<Eigen::Index> &nodes = each->faces[0];
+         const auto at = [&](Eigen::Index k) { return each->nodes[nodes[k]].position; };
+         EXPECT_GT((at(1) - at(0)).cross(at(2) - at(0)).dot(each->nodes[0].normal()), 0);
+         for (Eigen::Index e = 0; e < corners; ++e)
+         {
+            const Vector3d step = (at((e + 1) % corners) - at(e)) / 3;
+            EXPECT_LT((at(corners + 2 * e) - at(e) - step).norm(), 1e-14);
+            EXPECT_LT((at(corners + 2 * e + 1) - at(e) - 2 * step).norm(), 1e-14);
+         }
+         for (Eigen::Index k = 3 * corners; k < static_cast<Eigen::Index>(nodes.size()); ++k)
+         {
+            const Eigen::Index own = k - 3 * corners;
+            Vector3d inner = (at(0) + at(1) + at(2)) / 3;
+            if (hexahedra)
+            {
+               const Vector3d next = at((own + 1) % 4) - at(own),
+                              back = at((own + 3) % 4) - at(own);
+               inner = at(own) + next / 3 + back / 3;
+            }
+            EXPECT_LT((at(k) - inner).norm(), 1e-14);
+         }
+      }
+      // 3. A pressure goes through matching faces.
+      for (int c : {1, 2, 3}) { lower.fix(lower.nodes_of("BOTTOM"), c); }
+      upper.add_surface_traction("P", upper.nodes_of("TOP"),
+                                 Vector3d(-pressure * askew.col(1)));
+      const CondensedBody above = on_surface(upper, "BOTTOM"), below = on_surface(lower, "TOP");
+      expect_relative(above.surface.weights().sum(), 2, 1e-13);
+      Reduction reduction = reduce(above, below, pair_surfaces(above.surface, below.surface));
+      const ContactState state =
+         solved(reduction.problem, 0.5, {VectorXd::Constant(1, 1)}).front();
+      EXPECT_LT(largest(state.p - pressure * reduction.problem.weights), 1e-12 * pressure);
+      EXPECT_LT(largest(state.q), 1e-12 * pressure);
+      const VectorXd u = reduction.displacement(0, state.v, state.w, state.multipliers);
+      const double down = pressure * (1 / E + 1 / (2 * E));
+      for (int node : upper.nodes_of("TOP"))
+      {
+         EXPECT_LT((u.segment(3 * node, 3) + down * askew.col(1)).norm(), 1e-11 * down);
+      }
+      // 4. Nodes elsewhere than at thirds have other functions.
+      NodalStiffness lobatto = upper;
+      const int moved = face[corners];
+      const Vector3d step = 0.06 * (lobatto.place(face[1]) - lobatto.place(face[0])),
+                     at = lobatto.place(moved) - step;
+      lobatto.places[moved] = at.head(2);
+      lobatto.z[moved] = at[2];
+      expect_input_error([&] { lobatto.contact_surface(std::vector<std::vector<int>>{face}); },
+                         "must be at thirds of the face");
+   }
+}
+
+TEST(Surfaces, BoltIsInAJointDiagram)
+{
+   // Two blocks that do not contract, under a bolt with the stiffness k_b and forces that pull
+   // them apart. The blocks are springs in a row, k_c. By hand: pretension T clamps with V = T
+   // k_c/(k_c + k_b); a working force W adds W k_b/(k_c + k_b) to the bolt's and takes the rest
+   // from the clamp, until that is gone. Then the bolt has all of W.
+   const double k_b = 1.5, area = 6, upper_E = 2, lower_E = 5, T = 0.1;
+   const double k_c = 1 / (2 / (upper_E * area) + 1 / (lower_E * area)),
+                V = T * k_c / (k_c + k_b), opens = V * (k_c + k_b) / k_c;
+   for (const Solid solid : {Solid::hexahedra, Solid::tetrahedra})
+   {
+      NodalStiffness upper = block({3, 2, 2}, {0, 0, 0}, {3, 2, 2}, upper_E, 0, solid),
+                     lower = block({3, 1, 2}, {0, -1, 0}, {3, 1, 2}, lower_E, 0, solid);
+      for (NodalStiffness *body : {&upper, &lower})
+      {
+         for (int c : {1, 3}) { body->fix(body->nodes_of("ALL"), c); }
+         const bool above = body == &upper;
+         const Nodes &far = body->nodes_of(above ? "TOP" : "BOTTOM");
+         const double up = (above ? 1 : -1) / area;
+         body->add_surface_traction("BOLT", far, {0, -up, 0});
+         body->add_surface_traction("W", far, {0, up, 0});
+      }
+      const CondensedBody above = on_surface(upper, "BOTTOM"), below = on_surface(lower, "TOP");
+      Reduction reduction = reduce(above, below, pair_surfaces(above.surface, below.surface));
+      reduction.add_shank("BOLT", k_b);
+      std::vector<VectorXd> loads;
+      for (const double W : {0.0, 0.5 * opens, 0.99 * opens, 1.5 * opens, 0.0})
+      {
+         loads.push_back(Eigen::Vector2d(T, W));
+      }
+      ASSERT_EQ(reduction.problem.pattern("BOLT"), 0U);
+      const std::vector<ContactState> states = solved(reduction.problem, 0.2, loads);
+      for (std::size_t k = 0; k < states.size(); ++k)
+      {
+         const double W = loads[k][1], clamp = std::max(0.0, V - W * k_c / (k_c + k_b)),
+                      bolt = clamp > 0 ? V + W * k_b / (k_c + k_b) : W;
+         EXPECT_NEAR(states[k].p.sum(), clamp, 1e-12);
+         EXPECT_LT(largest(states[k].p - clamp / area * reduction.problem.weights), 1e-12);
+         // The bolt is longer by what it has less than its pretension.
+         const VectorXd top = reduction.displacement(0, states[k].v, states[k].w, loads[k]),
+                        bottom = reduction.displacement(1, states[k].v, states[k].w, loads[k]);
+         const double apart =
+            top[3 * upper.nodes_of("TOP")[0] + 1] - bottom[3 * lower.nodes_of("BOTTOM")[0] + 1];
+         EXPECT_NEAR(apart, (bolt - T) / k_b, 1e-12);
+      }
+   }
+}
+
+TEST(Surfaces, LoadsMoveContactNodes)
+{
+   // A block with pressure on top, whose side at x = 0 is moved along x, contact nodes among
+   // it.
+   for (const int order : {1, 2})
+   {
+      for (const Solid solid : {Solid::hexahedra, Solid::tetrahedra})
+      {
+         NodalStiffness body =
+            block({2, 2, 2}, {0, 0, 0}, {2, 1, 2}, 3, 0.3, solid, Matrix3d::Identity(), order);
+         Nodes side;
+         for (int node : body.nodes_of("ALL"))
+         {
+            if (body.places[node][0] == 0) { side.push_back(node); }
+         }
+         for (int c : {2, 3}) { body.fix(body.nodes_of("TOP"), c); }
+         body.add_displacement("U", side, 1, 0.5);
+         body.add_displacement("V", body.nodes_of("TOP"), 2, -2);
+         body.add_forces("F", {side[1], body.nodes_of("TOP").back()}, 1, 0.25);
+         body.add_forces("F", body.nodes_of("BOTTOM"), 2, 0.1);
+         CondensedBody condensed = on_surface(body, "BOTTOM");
+         ASSERT_GT(condensed.moved.size(), 0);
+         EXPECT_TRUE(condensed.moves(0, 0));
+         const ContactSurface &surface = condensed.surface;
+         const Eigen::Index n = condensed.nodes();
+         Eigen::VectorXd unknowns(3 * n);
+         for (Eigen::Index k = 0; k < 3 * n; ++k) { unknowns[k] = std::sin(k + 1.0); }
+         for (int row : condensed.held) { unknowns[row] = 0; }
+         const Vector3d loads(0.7, -0.3, 1.1);
+         const VectorXd u = condensed.recover(unknowns, loads);
+         // 1. Supports are where the loads move them, unknowns are those given.
+         for (int node : side) { EXPECT_NEAR(u[3 * node], 0.7 * 0.5, 1e-13); }
+         for (int node : body.nodes_of("TOP")) { EXPECT_NEAR(u[3 * node + 1], 0.6, 1e-13); }
+         MatrixXd at(n, 3);
+         for (Eigen::Index i = 0; i < n; ++i)
+         {
+            for (int c : {0, 1, 2}) { at(i, c) = u[surface.nodes[i].dofs[c]]; }
+         }
+         at = surface.of_nodes(at);
+         for (Eigen::Index i = 0; i < n; ++i)
+         {
+            const Vector3d local = surface.nodes[i].frame * at.row(i).transpose();
+            for (int k : {0, 1, 2})
+            {
+               const auto row = static_cast<int>(k * n + i);
+               if (std::count(condensed.held.begin(), condensed.held.end(), row) > 0)
+               {
+                  continue;
+               }
+               EXPECT_NEAR(local[k], unknowns[row], 1e-12);
+            }
+         }
+         // 2. Forces of the contact are those that K u lacks; conjugates are the work of all on
+         // the fields that loads alone would give.
+         VectorXd external = VectorXd::Zero(body.K.rows());
+         MatrixXd each(body.K.rows(), 3);
+         VectorXd f = condensed.S * unknowns, g = condensed.H * loads;
+         for (int k : {0, 1, 2})
+         {
+            const bool force = condensed.patterns[k].control == Control::force;
+            VectorXd its(3 * n);
+            its << condensed.patterns[k].q, condensed.patterns[k].p;
+            f += loads[k] * its;
+            g[k] += (force ? -1 : 1) * its.dot(unknowns);
+            if (force) { external += loads[k] * body.loads[k].values; }
+            each.col(k) = condensed.recover(VectorXd::Zero(3 * n), Vector3d::Unit(k));
+         }
+         MatrixXd forces(n, 3);
+         for (Eigen::Index i = 0; i < n; ++i)
+         {
+            const Vector3d local(f[i], f[n + i], f[2 * n + i]);
+            forces.row(i) = surface.nodes[i].frame.transpose() * local;
+         }
+         forces = surface.forces_at_nodes(forces);
+         VectorXd contact = VectorXd::Zero(body.K.rows());
+         for (Eigen::Index i = 0; i < n; ++i)
+         {
+            for (int c : {0, 1, 2}) { contact[surface.nodes[i].dofs[c]] = forces(i, c); }
+         }
+         const VectorXd left = body.K * u - external - contact;
+         for (Eigen::Index row = 0; row < left.size(); ++row)
+         {
+            const bool fixed =
+               std::binary_search(body.fixed.begin(), body.fixed.end(), static_cast<int>(row));
+            if (!fixed) { EXPECT_NEAR(left[row], 0, 1e-11); }
+         }
+         const VectorXd inner = body.K * u - external;
+         for (int k : {0, 1})
+         {
+            const double work = each.col(k).dot(inner);
+            EXPECT_NEAR(g[k], work, 1e-11 * (1 + std::abs(work)));
+         }
+         EXPECT_NEAR(g[2], body.loads[2].values.dot(u), 1e-11);
+      }
+   }
+   // A flat face that is moved down presses as an obstacle that is moved up.
+   NodalStiffness base = block({3, 2, 3}, {0, -1, 0}, {1, 1, 1}, 2, 0.3),
+                  press = block({3, 1, 3}, {0, 0, 0}, {1, 1, 1}, 1, 0.3);
+   for (int c : {1, 2, 3}) { base.fix(base.nodes_of("BOTTOM"), c); }
+   for (int c : {1, 2, 3}) { press.fix(press.nodes_of("TOP"), c); }
+   press.add_displacement("U", press.nodes_of("BOTTOM"), 2, -0.01);
+   const CondensedBody below = on_surface(base, "TOP"), above = on_surface(press, "BOTTOM");
+   const Reduction met = reduce(below, above, pair_surfaces(below.surface, above.surface));
+   Reduction rigid = reduce(below, VectorXd::Zero(below.nodes()));
+   rigid.add_obstacle_motion("U", 0.0, -0.01, 0.0);
+   const VectorXd full = VectorXd::Constant(1, 1);
+   const ContactState one = solved(met.problem, 0, {full})[0],
+                      other = solved(rigid.problem, 0, {full})[0];
+   EXPECT_GT(other.p.sum(), 1e-3);
+   EXPECT_LT(difference(one.p, other.p), 1e-12);
+   // Along the surface, on what cannot follow, the law of friction would have to know its slip.
+   NodalStiffness slid = block({2, 1, 2}, {0, 0, 0}, {1, 1, 1}, 1, 0.3);
+   slid.fix(slid.nodes_of("TOP"), 2);
+   slid.add_displacement("U", slid.nodes_of("BOTTOM"), 1, 0.01);
+   slid.fix(slid.nodes_of("TOP"), 3);
+   const CondensedBody sliding = on_surface(slid, "BOTTOM");
+   expect_input_error([&] { reduce(sliding, VectorXd::Zero(sliding.nodes())); },
+                      "what it faces cannot follow");
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/products.hpp>
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/condense/middles.hpp>
@@ -104,6 +105,23 @@ Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLo
    return H;
 }
 
+/* Forces grow by -S g. A load of forces feels the displacement -g of the others, and a load of
+   displacements the forces of all loads on its own -g, and those of its own on theirs. */
+void shift_contact(const Eigen::MatrixXd &g, const Eigen::MatrixXd &S,
+                   const std::vector<Control> &controls, Eigen::MatrixXd &f, Eigen::MatrixXd &H)
+{
+   const Eigen::MatrixXd Sg = S * g, work = transposed_product(g, f);
+   for (std::size_t j = 0; j < controls.size(); ++j)
+   {
+      const auto k = static_cast<Index>(j);
+      const bool force = controls[j] == Control::force;
+      H.row(k) += (force ? 1.0 : -1.0) * work.col(k).transpose();
+      if (!force) { H.row(k) -= work.row(k); }
+   }
+   H += transposed_product(g, Sg);
+   f -= Sg;
+}
+
 std::vector<int> others(const std::vector<int> &held, Eigen::Index count)
 {
    std::vector<int> all(count), rest;
@@ -161,11 +179,6 @@ void ContactDofs::move(int position, Eigen::Index load, double by, const Trace &
    if (trace.formulation == Formulation::torsion)
    {
       refuse_motion(trace, position, "is turned " + pattern);
-   }
-   if (trace.formulation == Formulation::space)
-   {
-      refuse_motion(trace, position,
-                    "is displaced " + pattern + ", which is not supported in space");
    }
    if (moved.size() == 0)
    {
@@ -244,9 +257,25 @@ CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads
       spread(found.free.contact, free, rows);
       spread(found.clamped.forces, free, rows);
    }
+   result.H = found.H.size() > 0 || loads.empty() ? std::move(found.H)
+                                                  : load_by_load(loads, found.clamped);
    // Converts from the nodes to the unknowns of the trace.
    if (const Middles middles(result.surface); !middles.none())
    {
+      if (result.moved.size() > 0)
+      {
+         // Where unknowns are at rest the middle of an edge goes along with ends that a load
+         // moves.
+         std::vector<Control> controls;
+         for (const BodyLoad &load : loads) { controls.push_back(load.control); }
+         middles.to_unknowns(result.moved);
+         const std::vector<int> free = contact.free_positions();
+         result.moved(free, Eigen::all).setZero();
+         Eigen::MatrixXd along = result.moved;
+         middles.to_nodes(along);
+         along(contact.held, Eigen::all).setZero();
+         shift_contact(-along, found.S, controls, found.clamped.forces, result.H);
+      }
       middles.stiffness_to_unknowns(found.S);
       middles.forces_to_unknowns(found.clamped.forces);
       middles.to_unknowns(found.free.contact);
@@ -254,8 +283,6 @@ CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads
    result.counters = found.counters;
    result.solver = std::move(found.solver);
    result.rigid_modes = found.free.count;
-   result.H = found.H.size() > 0 || loads.empty() ? std::move(found.H)
-                                                  : load_by_load(loads, found.clamped);
    const Equilibrium equilibrium(found.free);
    equilibrium.impose_on_stiffness(found.S);
    equilibrium.impose_on_forces(found.clamped.forces);
@@ -312,7 +339,11 @@ CondensedBody in_local_frames(const ContactSurface &surface, const std::vector<B
    result.line.formulation = Formulation::space;
    result.surface = surface;
    require_ends_held(surface, contact.held);
-   if (!contact.held.empty()) { result.held = align(result.surface, contact.held); }
+   if (!contact.held.empty())
+   {
+      result.held = align(result.surface, contact.held);
+      result.moved = contact.moved;
+   }
    return in_frames(std::move(result), loads, contact, std::move(found));
 }
 

@@ -204,8 +204,8 @@ ClampedLoads clamp(const AssembledBody &body, FactorSolver &solver, Counters &co
            at_fixed.transpose() * solver.prescribed};
 }
 
-/// A trace made by hand has the dofs of the nodes that it names, to 1e-9 of its size and to
-/// round-off of its coordinates.
+} // namespace
+
 void require_in_place(const Trace &trace, const DofPlaces &places)
 {
    const double box =
@@ -227,6 +227,9 @@ void require_in_place(const Trace &trace, const DofPlaces &places)
       }
    }
 }
+
+namespace
+{
 
 /** A body whose blocks move. In its solver the blocks are held, at the displacements d. F are
     the clamped forces of all loads, among them the blocks' motions, and H is their response.
@@ -265,8 +268,14 @@ Condensation condense_by_factor(const AssembledBody &body, const std::vector<int
                                 const BodySolver *alike)
 {
    if (!body.blocks.empty()) { return with_blocks_held(body, contact, alike); }
+   return condense_by_factor(body, contact, alike, find_free_motions(body, contact));
+}
+
+Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
+                                const BodySolver *alike, FreeMotions free)
+{
    Condensation found;
-   found.free = find_free_motions(body, contact);
+   found.free = std::move(free);
    auto solver = std::make_shared<FactorSolver>();
    const auto *other = dynamic_cast<const FactorSolver *>(alike);
    // A body with an equal operator, such as a shifted copy, has the same factor.
@@ -338,27 +347,31 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
 
 } // namespace
 
+AssembledBody with_eliminated(const AssembledBody &body)
+{
+   const std::vector<int> gone = body.grounded ? body.eliminated() : std::vector<int>();
+   AssembledBody supported = body;
+   if (gone.empty()) { return supported; }
+   supported.fixed.clear();
+   std::merge(body.fixed.begin(), body.fixed.end(), gone.begin(), gone.end(),
+              std::back_inserter(supported.fixed));
+   // Without these links other rows may turn out to have none.
+   supported.K = without_links(body.K, gone);
+   return with_eliminated(supported);
+}
+
 namespace
 {
 
 /// Condenses to a line or a surface.
 template <class Nodes>
-CondensedBody condensed(const AssembledBody &body, const Nodes &line,
+CondensedBody condensed(const AssembledBody &given, const Nodes &line,
                         const CondensedBody *alike)
 {
-   body.validate();
+   given.validate();
    // Supports may have been eliminated by the program that wrote the stiffness.
-   if (const std::vector<int> gone = body.eliminated(); body.grounded && !gone.empty())
-   {
-      AssembledBody supported = body;
-      std::vector<int> fixed;
-      std::merge(body.fixed.begin(), body.fixed.end(), gone.begin(), gone.end(),
-                 std::back_inserter(fixed));
-      supported.fixed = std::move(fixed);
-      // Their rows are fixed from now on, and the body is condensed again.
-      supported.K = without_links(body.K, gone);
-      return condensed(supported, line, alike);
-   }
+   const AssembledBody body = with_eliminated(given);
+   if (body.fixed.size() > given.fixed.size()) { body.validate(); }
    line.validate();
    const Trace trace(line);
    ContactDofs contact = contact_dofs(trace, body.places.formulation, body.K.size());

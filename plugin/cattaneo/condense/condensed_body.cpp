@@ -19,8 +19,15 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd &u,
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
    ++counters.field_recoveries;
-   Eigen::MatrixXd all = frames_of(*this).transposed().rows(u);
-   Middles(surface).to_nodes(all);
+   Eigen::MatrixXd all = u;
+   for (int row : held) { all.row(row).setZero(); }
+   all = frames_of(*this).transposed().rows(all);
+   if (const Middles middles(surface); !middles.none())
+   {
+      // The middle of an edge goes along with ends that a load moves.
+      if (moved.size() > 0) { all += moved * multipliers; }
+      middles.to_nodes(all);
+   }
    const Eigen::VectorXd contact = all;
    return solver->recover(contact(free_positions()), multipliers, counters);
 }
@@ -137,7 +144,7 @@ Eigen::MatrixXd CondensedBody::directions(Eigen::Index node) const
 
 bool CondensedBody::moves(Eigen::Index node, int component) const
 {
-   return moved.size() > 0 && !moved.row(component * line.size() + node).isZero(0);
+   return moved.size() > 0 && !moved.row(component * nodes() + node).isZero(0);
 }
 
 bool CondensedBody::holds(Eigen::Index node, int component) const

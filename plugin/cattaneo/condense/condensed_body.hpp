@@ -50,7 +50,8 @@ public:
    /// Thickness of a plane body. All forces are those of this thickness. See thicken().
    double thickness = 1;
    /// Prescribed displacements of held components per unit multiplier: {x; y} of all contact
-   /// nodes, 2n × patterns, zero elsewhere. Empty if no load moves a held component.
+   /// nodes, 2n × patterns, in space {x; y; z} of their unknowns, 3n × patterns. Zero
+   /// elsewhere. Empty if no load moves a held component.
    Eigen::MatrixXd moved;
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
    Eigen::MatrixXd H;   ///< loads by loads with the contact clamped (see ReducedProblem::H)
@@ -96,7 +97,7 @@ public:
    /// Do supports hold a component (0: x or r, 1: y or z, in space 2: z) of a node? Not for
    /// torsion.
    bool holds(Eigen::Index node, int component) const;
-   /// Does a load move a component (0: x or r, 1: y or z) of a node?
+   /// Does a load move a component (0: x or r, 1: y or z, in space 2: z) of a node?
    bool moves(Eigen::Index node, int component) const;
 
    std::shared_ptr<const BodySolver> solver; ///< of the free components; shared by copies

@@ -28,12 +28,69 @@ struct FaceShare
 
 std::size_t corners_of(const std::size_t nodes)
 {
-   return nodes == 3 || nodes == 6 ? 3 : 4;
+   return nodes == 3 || nodes == 6 || nodes == 10 ? 3 : 4;
+}
+
+/// Faces of order 3 have two nodes on each edge.
+bool is_cubic(const std::size_t nodes)
+{
+   return nodes == 10 || nodes == 16;
+}
+
+/// Thirds (of each direction) at which the nodes of a face of order 3 lie.
+std::vector<std::array<int, 2>> thirds_of(const std::size_t nodes)
+{
+   if (nodes == 10)
+   {
+      return {{0, 0}, {3, 0}, {0, 3}, {1, 0}, {2, 0}, {2, 1}, {1, 2}, {0, 2}, {0, 1}, {1, 1}};
+   }
+   return {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {1, 0}, {2, 0}, {3, 1}, {3, 2},
+           {2, 3}, {1, 3}, {0, 2}, {0, 1}, {1, 1}, {2, 1}, {2, 2}, {1, 2}};
 }
 
 /// The functions of a face at 0 <= s, t <= 1 (of a triangle s + t <= 1), and in columns 1 and 2
 /// their derivatives.
-using FaceFunctions = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 9, 3>;
+using FaceFunctions = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 16, 3>;
+
+/// The product t (t - 1) … of `factors` factors, t = 3 x, over its value at t = `factors`, and
+/// its derivative by x: 1 at one third of a line and 0 at all before it.
+std::array<double, 2> rising(int factors, double x)
+{
+   double value = 1, slope = 0;
+   for (int k = 0; k < factors; ++k)
+   {
+      const double share = (3 * x - k) / (factors - k), by = 3.0 / (factors - k);
+      slope = slope * share + value * by;
+      value *= share;
+   }
+   return {value, slope};
+}
+
+/// Of faces of order 3 whose nodes lie at thirds.
+FaceFunctions cubic_functions(std::size_t nodes, double s, double t)
+{
+   FaceFunctions of(static_cast<Index>(nodes), 3);
+   Index a = 0;
+   for (const auto &[i, j] : thirds_of(nodes))
+   {
+      if (nodes == 10)
+      {
+         // Products of three functions that rise from the sides.
+         const auto one = rising(i, s), two = rising(j, t), rest = rising(3 - i - j, 1 - s - t);
+         of.row(a++) << one[0] * two[0] * rest[0],
+            (one[1] * rest[0] - one[0] * rest[1]) * two[0],
+            (two[1] * rest[0] - two[0] * rest[1]) * one[0];
+         continue;
+      }
+      // On a line, rising from one end and from the other one.
+      const auto along = rising(i, s), back = rising(3 - i, 1 - s), across = rising(j, t),
+                 down = rising(3 - j, 1 - t);
+      const double x = along[0] * back[0], y = across[0] * down[0];
+      of.row(a++) << x * y, (along[1] * back[0] - along[0] * back[1]) * y,
+         (across[1] * down[0] - across[0] * down[1]) * x;
+   }
+   return of;
+}
 
 FaceFunctions triangle_functions(std::size_t nodes, double s, double t)
 {
@@ -106,8 +163,9 @@ std::vector<FaceShare> shares_of(const std::vector<Vector3d> &x)
          const double s = rule.points[i], narrow = triangle ? 1 - s : 1,
                       t = narrow * rule.points[j],
                       weight = narrow * rule.weights[i] * rule.weights[j];
-         const FaceFunctions of = triangle ? triangle_functions(x.size(), s, t)
-                                           : quadrilateral_functions(x.size(), s, t);
+         const FaceFunctions of = is_cubic(x.size()) ? cubic_functions(x.size(), s, t)
+                                  : triangle         ? triangle_functions(x.size(), s, t)
+                                                     : quadrilateral_functions(x.size(), s, t);
          Vector3d along(0, 0, 0), across(0, 0, 0);
          for (std::size_t a = 0; a < x.size(); ++a)
          {
@@ -141,11 +199,51 @@ std::size_t nearest_edge(const std::vector<Vector3d> &x, std::size_t edge)
    return nearest;
 }
 
+/// The node of a face of order 3 that is farthest from its third of the straight face between
+/// the corners, if that is more than 0.05 of the shortest edge; else the number of all nodes.
+/// (Gauss–Lobatto points of order 3 are off by 0.057 of an edge.)
+std::size_t off_thirds(const std::vector<Vector3d> &x)
+{
+   double shortest = std::numeric_limits<double>::infinity(), most = 0;
+   const std::size_t corners = corners_of(x.size());
+   for (std::size_t e = 0; e < corners; ++e)
+   {
+      shortest = std::min(shortest, (x[(e + 1) % corners] - x[e]).norm());
+   }
+   const auto thirds = thirds_of(x.size());
+   std::size_t farthest = x.size();
+   for (std::size_t a = corners; a < x.size(); ++a)
+   {
+      const double s = thirds[a][0] / 3., t = thirds[a][1] / 3.;
+      Vector3d at = (1 - s - t) * x[0] + s * x[1] + t * x[2];
+      if (corners == 4)
+      {
+         at = (1 - s) * ((1 - t) * x[0] + t * x[3]) + s * ((1 - t) * x[1] + t * x[2]);
+      }
+      const double off = (x[a] - at).norm();
+      if (off > std::max(most, 0.05 * shortest))
+      {
+         most = off;
+         farthest = a;
+      }
+   }
+   return farthest;
+}
+
 /// Nodes of a face in the opposite sense.
 void turn_round(std::vector<Index> &face)
 {
    const auto corners = static_cast<Index>(corners_of(face.size()));
    std::reverse(face.begin(), face.begin() + corners);
+   if (is_cubic(face.size()))
+   {
+      // The last edge stays the last, the two nodes of each edge change places, and those
+      // inside go with their corners.
+      std::reverse(face.begin() + corners, face.begin() + 3 * corners - 2);
+      std::swap(face[3 * corners - 2], face[3 * corners - 1]);
+      std::reverse(face.begin() + 3 * corners, face.end());
+      return;
+   }
    // The edge from the last corner to the first stays the last.
    if (face.size() > 4)
    {
@@ -154,6 +252,11 @@ void turn_round(std::vector<Index> &face)
 }
 
 } // namespace
+
+bool is_face(std::size_t nodes)
+{
+   return nodes == 3 || nodes == 4 || nodes == 6 || nodes == 8 || nodes == 9 || is_cubic(nodes);
+}
 
 Eigen::MatrixX3d ContactSurface::positions() const
 {
@@ -269,8 +372,8 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
    {
       const std::vector<int> &face = faces[f];
       const std::size_t count = face.size(), corners = corners_of(count);
-      require(count == 3 || count == 4 || count == 6 || count == 8 || count == 9, where,
-              ": face ", f, " has ", count, " nodes, must have 3, 4, 6, 8 or 9");
+      require(is_face(count), where, ": face ", f, " has ", count, " nodes, must have ",
+              nodes_of_faces);
       // 1. Its nodes, those that are new among them.
       std::vector<Index> its;
       std::vector<Vector3d> x;
@@ -307,8 +410,14 @@ ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
             if (b != a) { own.spacing = std::min(own.spacing, apart); }
          }
       }
-      // 3. The middles of its edges, whose functions are not positive in the mean.
-      for (std::size_t e = 0; e < corners && count > 4; ++e)
+      // 3. Nodes between corners; middles of edges may have functions that are not positive in
+      // the mean.
+      const std::size_t off = is_cubic(count) ? off_thirds(x) : count;
+      require(
+         off == count, where, ": node ", face[std::min(off, count - 1)], " of face ", f,
+         " must be at thirds of the face, to 0.05 of an edge: corners come first, then two "
+         "nodes of each edge from the first on, then those inside");
+      for (std::size_t e = 0; e < corners && count > 4 && !is_cubic(count); ++e)
       {
          const std::size_t next = (e + 1) % corners, nearest = nearest_edge(x, e);
          require(nearest == e, where, ": node ", face[corners + e], " of face ", f,

@@ -30,13 +30,14 @@ struct SurfaceNode
 
     On triangles of 6 nodes and quadrilaterals of 8 the consistent weights of the corners are
     zero or negative, so that signs of nodal forces say nothing about the contact. Their
-   unknowns are those of other functions of the same space, all of which have positive weights:
+    unknowns are those of other functions of the same space, all of which have positive weights:
 
        corners: N + (N of the middles of the adjacent edges)/5,    middles: 3/5 N.
 
     The displacement of a middle is 3/5 of its unknown and 1/5 of each end's; that of a corner
     is its unknown. Displacements, gaps and forces of the reduced problem are those of the
-    unknowns. at_nodes() and forces_at_nodes() convert them to those of the nodes.
+    unknowns. at_nodes() and forces_at_nodes() convert them to those of the nodes. All other
+    faces have positive weights, and their unknowns are those of the nodes.
 
     The normal of a node is the mean of its faces' normals, by their share of the node's weight.
     Its first tangent is the axis that lies nearest to the surface (x before y before z), turned
@@ -48,7 +49,9 @@ struct ContactSurface
    /// Numbers of the nodes of each face: three or four corners in their order around it, so
    /// that seen from within the body they turn counter-clockwise; of order 2 then the middles
    /// of the edges, first that between the first two corners, and of nine nodes the middle of
-   /// the face.
+   /// the face. Of order 3 (10 and 16 nodes) each edge has two nodes, at its thirds, in the
+   /// sense of the face; then come the middle of the triangle, or four nodes inside the
+   /// quadrilateral, each beside the corner of the same number.
    std::vector<std::vector<Eigen::Index>> faces;
 
    /// Number of contact nodes.
@@ -82,13 +85,18 @@ struct ContactSurface
 /// A right-handed frame with this normal (a unit vector); rows as in SurfaceNode::frame.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d &normal);
 
-/** The surface of faces of 3, 4, 6, 8 or 9 nodes, in either sense around each face.
+/// How many nodes a face has, in words.
+constexpr const char *nodes_of_faces = "3, 4, 6, 8, 9, 10 or 16";
+/// Is there a face with so many nodes?
+bool is_face(std::size_t nodes);
+
+/** The surface of faces of 3, 4, 6, 8, 9, 10 or 16 nodes, in either sense around each face.
     @param faces   numbers of nodes around each face, in the order of ContactSurface::faces
     @param node    returns dofs and position of a node; called once for each
     @param inside  a direction from the face of that number into the body, not along it
     InputError, which begins with `where`, for another number of nodes, for a face without area,
-    a node that is nearer to the middle of another edge than to that of its own, or if there is
-    no face. */
+    a node that is nearer to the middle of another edge than to that of its own, a node of a
+    face of 10 or 16 nodes that is not at its place, or if there is no face. */
 ContactSurface surface_of(const std::vector<std::vector<int>> &faces,
                           const std::function<SurfaceNode(int)> &node,
                           const std::function<Eigen::Vector3d(std::size_t)> &inside,

@@ -175,6 +175,18 @@ Eigen::Matrix3d on_supports(const Eigen::Matrix3d &frame, const std::array<bool,
    return made;
 }
 
+Eigen::Matrix3d frame_between(const Eigen::Matrix3d &one, const Eigen::Matrix3d &other,
+                              bool by_other)
+{
+   const Eigen::Vector3d normal = Eigen::Vector3d(one.row(2) - other.row(2)).normalized(),
+                         along = (by_other ? other : one).row(0);
+   Eigen::Matrix3d frame;
+   frame.row(2) = normal;
+   frame.row(0) = (along - normal.dot(along) * normal).normalized();
+   frame.row(1) = normal.cross(Eigen::Vector3d(frame.row(0)));
+   return frame;
+}
+
 void meet_supports(ContactSurface &surface, const CondensedBody &body)
 {
    if (body.held.empty()) { return; }

@@ -118,8 +118,8 @@ public:
    /** In space: the trace on the outer faces all of whose nodes are among the given ones.
        InputError if no elements are known, or there is no such face. */
    ContactSurface contact_surface(const Nodes &nodes) const;
-   /** The same on faces of three or four nodes, which need not be outer faces of elements that
-       are known. The side of the body follows from K. */
+   /** The same on faces (surface_of()), which need not be outer faces of elements that are
+       known. The side of the body follows from K. */
    ContactSurface contact_surface(const std::vector<Nodes> &on) const;
 
    /// (x, y, z) of a node; z is 0 except in space.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/exchange/input_deck.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/exchange/numpy_file.hpp>
@@ -701,8 +702,7 @@ void read_dofs(const std::string &file, NodalStiffness &result)
                            in.number(fields[4], "a value"));
             }
          }
-         else if (word == "face" && (fields.size() == 4 || fields.size() == 5 ||
-                                     fields.size() == 7 || fields.size() >= 9))
+         else if (word == "face" && is_face(fields.size() - 1))
          {
             NodalStiffness::Nodes face;
             for (std::size_t k = 1; k < fields.size(); ++k)
@@ -736,19 +736,46 @@ void read_facts(const NumpyArrays &array, const std::string &file, NodalStiffnes
    const Eigen::MatrixXd places = array("places").matrix(file + "/places");
    fits("dofs", dofs.rows());
    fits("places", places.rows());
-   require(places.cols() == 2 && places.allFinite(), "file '", file,
+   const bool in_space = places.cols() == 3;
+   require((places.cols() == 2 || in_space) && places.allFinite(), "file '", file,
            "': its array 'places' has ", places.cols(),
-           " columns, must be x and y, finite, of each row");
+           " columns, must be x and y, or x, y and z, finite, of each row");
+   if (in_space) { result.formulation = Formulation::space; }
+   std::map<int, Eigen::Vector3d> known;
    for (Eigen::Index row = 0; row < size; ++row)
    {
       const NodeDof dof{dofs(row, 0), dofs(row, 1)};
-      require(dof.direction == 1 || dof.direction == 2, "file '", file, "': row ", row + 1,
-              " is of direction ", dof.direction, ", must be 1 or 2");
-      const Eigen::Vector2d place = places.row(row);
-      const Eigen::Vector2d &known = result.places.emplace(dof.node, place).first->second;
-      require(known == place, "file '", file, "': node ", dof.node, " is at ", place,
-              " in row ", row + 1, ", and was at ", known, " before");
+      require(dof.direction >= 1 && dof.direction <= places.cols(), "file '", file, "': row ",
+              row + 1, " is of direction ", dof.direction, ", must be ",
+              in_space ? "1, 2 or 3" : "1 or 2");
+      Eigen::Vector3d place(places(row, 0), places(row, 1), in_space ? places(row, 2) : 0);
+      const Eigen::Vector3d &before = known.emplace(dof.node, place).first->second;
+      require(before == place, "file '", file, "': node ", dof.node, " is at ",
+              place_text(place, result.formulation), " in row ", row + 1, ", and was at ",
+              place_text(before, result.formulation), " before");
+      result.places[dof.node] = place.head(2);
+      if (in_space) { result.z[dof.node] = place[2]; }
       result.dofs.push_back(dof);
+   }
+   if (array.has("faces"))
+   {
+      const NumpyArray given = array("faces");
+      const Eigen::MatrixXi faces =
+         array.whole("faces", given.shape.size() == 2 ? given.shape[1] : 1);
+      for (Eigen::Index f = 0; f < faces.rows(); ++f)
+      {
+         NodalStiffness::Nodes face;
+         for (int node : faces.row(f))
+         {
+            if (node < 0) { break; } // filled up
+            require(result.places.count(node) == 1, "file '", file, "': face ", f, " has node ",
+                    node, ", which has no row");
+            face.push_back(node);
+         }
+         require(in_space && is_face(face.size()), "file '", file, "': face ", f, " has ",
+                 face.size(), " nodes, must have ", nodes_of_faces, ", of a body in space");
+         result.faces.push_back(std::move(face));
+      }
    }
    if (array.has("axisymmetric")) { result.formulation = Formulation::axisymmetric; }
    result.supports_left_out = array.has("supports_left_out");

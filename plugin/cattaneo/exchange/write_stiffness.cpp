@@ -104,18 +104,21 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M)
 {
    require_npz(file);
-   require_flat(file, stiffness);
    stiffness.validate();
    require_forces(file, stiffness);
    const auto size = static_cast<Index>(stiffness.dofs.size()),
               count = static_cast<Index>(stiffness.loads.size());
-   Eigen::MatrixXd loads(size, count), dofs(size, 2), places(size, 2);
+   require(size < 23000, "write_npz: K of file '", file, "' has ", size,
+           " rows, and would be written with all of its entries; an array must have less than "
+           "23000: use write_matrix_market()");
+   const int dimension = cattaneo::dimension(stiffness.formulation);
+   Eigen::MatrixXd loads(size, count), dofs(size, 2), places(size, dimension);
    for (Index k = 0; k < count; ++k) { loads.col(k) = stiffness.loads[k].values; }
    for (Index row = 0; row < size; ++row)
    {
       const NodeDof &dof = stiffness.dofs[row];
       dofs.row(row) << dof.node, dof.direction;
-      places.row(row) = stiffness.places.at(dof.node).transpose();
+      places.row(row) = stiffness.place(dof.node).head(dimension).transpose();
    }
    const Eigen::VectorXd fixed =
       Eigen::Map<const Eigen::VectorXi>(stiffness.fixed.data(), stiffness.fixed.size())
@@ -137,6 +140,23 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
    {
       arrays["set " + set] =
          Eigen::Map<const Eigen::VectorXi>(nodes.data(), nodes.size()).cast<double>();
+   }
+   if (!stiffness.faces.empty())
+   {
+      // A row a face, filled up with -1.
+      std::size_t most = 0;
+      for (const NodalStiffness::Nodes &face : stiffness.faces)
+      {
+         most = std::max(most, face.size());
+      }
+      Eigen::MatrixXd faces =
+         Eigen::MatrixXd::Constant(stiffness.faces.size(), static_cast<Index>(most), -1);
+      for (std::size_t f = 0; f < stiffness.faces.size(); ++f)
+      {
+         const NodalStiffness::Nodes &face = stiffness.faces[f];
+         for (std::size_t a = 0; a < face.size(); ++a) { faces(f, a) = face[a]; }
+      }
+      arrays["faces"] = faces;
    }
    add_mass(arrays, M, size);
    write_npz(file, arrays);

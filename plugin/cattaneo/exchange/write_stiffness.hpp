@@ -10,11 +10,12 @@ namespace cattaneo
 /// written.
 void write_npz(const std::string &file, const std::map<std::string, Eigen::MatrixXd> &arrays);
 
-/** For programs of joint dynamics, as arrays: `K`, `loads` (a column a load), `dofs` (a row
-    each: node, direction), `places` (of each row's node), `fixed` (rows, from 0), `M` if a mass
-    matrix is given, of the same rows; and what read_stiffness() needs besides: `load NAME` (the
-    number of its column), `set NAME` (its nodes), `axisymmetric` and `supports_left_out` where
-    they are so. All of it but M comes back to the last bit, as of write_matrix_market().
+/** For programs of joint dynamics, as arrays: `K` (all entries), `loads` (a column a load),
+    `dofs` (a row each: node, direction), `places` (of each row's node, two coordinates or
+    three), `fixed` (rows, from 0), `M` if a mass matrix is given, of the same rows; and what
+    read_stiffness() needs besides: `load NAME` (the number of its column), `set NAME` (its
+    nodes), `faces` (a row each, filled up with -1), `axisymmetric` and `supports_left_out`
+   where they are so. All of it but M comes back to the last bit, as of write_matrix_market().
     InputError if M does not fit, or loads prescribe displacements. */
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M = {});

@@ -56,6 +56,16 @@ Small turned(const ContactRow &row, const TraceShare &share, const CondensedBody
    return block;
 }
 
+/// The components of a node, in its own frame, that lie along the axes of a row: in space the
+/// tangents of the frame may be in the other order.
+std::array<int, 3> along_axes(const ContactRow &row, const CondensedBody &body, int node)
+{
+   if (body.line.formulation != Formulation::space) { return {0, 1, 2}; }
+   const Eigen::Matrix3d parts = (row.axes * body.directions(node)).cwiseAbs();
+   const bool other_order = parts(0, 1) + parts(1, 0) > parts(0, 0) + parts(1, 1) + 1e-9;
+   return other_order ? std::array<int, 3>{1, 0, 2} : std::array<int, 3>{0, 1, 2};
+}
+
 } // namespace
 
 bool holds(const CondensedBody &body, int node, int component)
@@ -96,12 +106,14 @@ void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<Con
    for (ContactRow &row : rows)
    {
       row.dependent = {row.slave, row.slave, row.slave};
+      row.component = along_axes(row, bodies[row.slave.first], row.slave.second);
       if (!has_choice(row)) { taken.insert(row.slave); }
    }
    for (ContactRow &row : rows)
    {
       if (!has_choice(row) || taken.count(*row.partner())) { continue; }
       const NodeOfBody partner = *row.partner();
+      const std::array<int, 3> its = along_axes(row, bodies[partner.first], partner.second);
       const auto held = [&](const NodeOfBody &at, int c)
       { return holds(bodies[at.first], at.second, c); };
       const auto stiffness = [&](const NodeOfBody &at, int c)
@@ -123,10 +135,15 @@ void choose_dependents(const std::vector<CondensedBody> &bodies, std::vector<Con
       {
          if (any_held)
          {
-            own = held(row.slave, c) ? infinite : stiffness(row.slave, c);
-            other = held(partner, c) ? infinite : stiffness(partner, c);
+            const int one = row.component[c];
+            own = held(row.slave, one) ? infinite : stiffness(row.slave, one);
+            other = held(partner, its[c]) ? infinite : stiffness(partner, its[c]);
          }
-         if (taken_already || own > much * other) { row.dependent[c] = partner; }
+         if (taken_already || own > much * other)
+         {
+            row.dependent[c] = partner;
+            row.component[c] = its[c];
+         }
       }
       taken.insert(row.dependent.begin(), row.dependent.begin() + components);
    }
@@ -174,7 +191,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
    {
       for (int component = 0; component < components; ++component)
       {
-         const int own = dof(rows[i].dependent[component], component);
+         const int own = dof(rows[i].dependent[component], rows[i].component[component]);
          if (own >= 0) { row_of[own] = i; }
       }
    }
@@ -200,8 +217,9 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
          if (components > 1) { block = turned(row, share, bodies[share.of.first]); }
          for (int b = 0; b < components; ++b)
          {
-            const bool is_own = share.of == row.dependent[b];
-            if (is_own) { own.col(b) += block.col(b); }
+            const int axis = row.axis_of(share.of, b, components);
+            const bool is_own = axis >= 0;
+            if (is_own) { own.col(axis) += block.col(b); }
             const int column = dof(share.of, b);
             if (column < 0) { continue; }
             if (!is_own && row_of[column] >= 0) { make(row_of[column]); }
@@ -228,7 +246,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       const Small inverse = own.inverse();
       for (int b = 0; b < components; ++b)
       {
-         const int column = dof(row.dependent[b], b);
+         const int column = dof(row.dependent[b], row.component[b]);
          if (column < 0) { continue; }
          for (int a = 0; a < components; ++a)
          {

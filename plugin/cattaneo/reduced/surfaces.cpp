@@ -22,20 +22,6 @@ std::string called(const SurfaceNode &node)
    return place_text(node.position, Formulation::space);
 }
 
-/// The frame with the mean normal of two nodes that face each other. Its first tangent is that
-/// of the first node, or of the second one if supports hold tangents there (`other_is_held`),
-/// turned to be perpendicular to the normal.
-Matrix3d frame_between(const SurfaceNode &one, const SurfaceNode &other, bool other_is_held)
-{
-   const Vector3d normal = (one.normal() - other.normal()).normalized();
-   const Vector3d along = (other_is_held ? other : one).frame.row(0);
-   Matrix3d frame;
-   frame.row(2) = normal;
-   frame.row(0) = (along - normal.dot(along) * normal).normalized();
-   frame.row(1) = normal.cross(Vector3d(frame.row(0)));
-   return frame;
-}
-
 /// Do supports hold a direction of a node?
 bool is_held(const CondensedBody &body, int node, const Vector3d &direction)
 {
@@ -189,8 +175,10 @@ ContactRow row_of_pair(const std::vector<CondensedBody> &bodies, const NodeOfBod
            "contact before it");
    ContactRow row;
    row.slave = slave;
-   row.axes = frame_between(
-      own, its, any_is_held(other, master.second) && !any_is_held(one, slave.second));
+   // The first tangent is the second body's if supports hold tangents there alone.
+   row.axes =
+      frame_between(own.frame, its.frame,
+                    any_is_held(other, master.second) && !any_is_held(one, slave.second));
    // A tangent does not slide if both bodies hold it.
    for (int k : {0, 1})
    {
@@ -285,9 +273,9 @@ void require_dependents(const std::vector<CondensedBody> &bodies,
       for (int c = 0; c < 3; ++c)
       {
          const NodeOfBody &node = row.dependent[c];
-         const bool its = !holds(bodies[node.first], node.second, c);
+         const bool its = !holds(bodies[node.first], node.second, row.component[c]);
          const bool slides = c == 2 || row.slides[c];
-         require((its || !slides) && (!its || taken.emplace(node, c).second),
+         require((its || !slides) && (!its || taken.emplace(node, row.component[c]).second),
                  "reduce: several interfaces meet at the node ",
                  called(bodies[row.slave.first].surface.nodes[row.slave.second]), " of ",
                  called(bodies, row.slave.first),

@@ -3,6 +3,7 @@
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/products.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
+#include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/union.hpp>
 #include <cattaneo/words.hpp>
@@ -238,6 +239,16 @@ std::vector<int> at(const std::vector<int> &numbers, const std::vector<int> &of)
    return found;
 }
 
+/// Rows: tangents and the normal of a contact node, in components of the bodies.
+MatrixXd axes_of(const ContactRow &row, int components)
+{
+   if (components == 3) { return row.axes; }
+   const Vector2d &t = row.tangent;
+   MatrixXd axes(2, 2);
+   axes << t[0], t[1], -t[1], t[0];
+   return axes;
+}
+
 /// Relative displacements {v; w} that contact nodes have where loads move held components of
 /// them, a column a pattern; empty: no load does.
 MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
@@ -245,22 +256,29 @@ MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRow
 {
    MatrixXd moved;
    const auto n = static_cast<Index>(rows.rows.size());
+   const int components = cattaneo::components(bodies[0].line.formulation);
    for (Index i = 0; i < n; ++i)
    {
       const ContactRow &row = rows.rows[i];
-      const Vector2d &t = row.tangent, normal(-t[1], t[0]);
+      const MatrixXd axes = axes_of(row, components);
       for (const TraceShare &share : row.shares)
       {
          const CondensedBody &body = bodies[share.of.first];
-         const Index x = share.of.second, y = x + body.line.size();
+         const double part[] = {share.x, share.y, share.z};
          for (Index k = 0; k < body.moved.cols(); ++k)
          {
-            const Vector2d by(share.x * body.moved(x, k), share.y * body.moved(y, k));
+            VectorXd by(components);
+            for (int c = 0; c < components; ++c)
+            {
+               by[c] = part[c] * body.moved(share.of.second + c * body.nodes(), k);
+            }
             if (by.isZero(0)) { continue; }
-            if (moved.size() == 0) { moved = MatrixXd::Zero(2 * n, count); }
-            const int pattern = index[share.of.first][k];
-            moved(i, pattern) += t.dot(by);
-            moved(n + i, pattern) += normal.dot(by);
+            if (moved.size() == 0) { moved = MatrixXd::Zero(components * n, count); }
+            const VectorXd along = axes * by;
+            for (int c = 0; c < components; ++c)
+            {
+               moved(c * n + i, index[share.of.first][k]) += along[c];
+            }
          }
       }
    }
@@ -411,21 +429,14 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       add_product(f, Q, work - transposed_product(Q, f));
    }
 
-   // Where loads move contact nodes by g the free components take u - ℓ g: forces grow by -S g,
-   // and the displacement on which such a load does work changes by -g.
+   // Where loads move contact nodes by g the free components take u - ℓ g.
    const MatrixXd moved = moved_contacts(bodies, rows, index, count);
    if (moved.size() > 0)
    {
       const MatrixXd g = shared->moved = rows_of(moved, map.sliding);
-      const MatrixXd Sg = S * g, work = transposed_product(g, f);
-      for (Index k = 0; k < count; ++k)
-      {
-         const bool force = patterns[k].control == Control::force;
-         block.H.row(k) += (force ? 1.0 : -1.0) * work.col(k).transpose();
-         if (!force) { block.H.row(k) -= work.row(k); }
-      }
-      block.H += transposed_product(g, Sg);
-      f -= Sg;
+      std::vector<Control> controls;
+      for (const LoadPattern &pattern : patterns) { controls.push_back(pattern.control); }
+      shift_contact(g, S, controls, f, block.H);
    }
 
    // Rows that do not slide are held, and those of tied nodes are left out.

@@ -32,6 +32,12 @@ struct Condensation
 /// ReducedProblem::H from the energies of clamped loads, with its signs set and made symmetric.
 Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped);
 
+/** Contact displacements u - g ℓ in the place of u, where loads move the contact by g (a column
+    a load): forces f = S u + f ℓ, and the response H of loads with these controls. */
+void shift_contact(const Eigen::MatrixXd &g, const Eigen::MatrixXd &S,
+                   const std::vector<Control> &controls, Eigen::MatrixXd &f,
+                   Eigen::MatrixXd &H);
+
 /// The numbers from 0 to count - 1 that are not in `held`.
 std::vector<int> others(const std::vector<int> &held, Eigen::Index count);
 
@@ -48,7 +54,7 @@ struct ContactDofs
    std::vector<int> in_moved_plane = {};
 
    /// Notes that the load moves the dof at a position of `all`. InputError that names the node,
-   /// for a body of torsion or in space.
+   /// for a body of torsion.
    void move(int position, Eigen::Index load, double by, const Trace &trace,
              const std::vector<BodyLoad> &loads);
    std::vector<int> free() const;
@@ -85,5 +91,15 @@ CondensedBody in_local_frames(const ContactSurface &surface, const std::vector<B
 /// dofs of contact_dofs().
 Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
                                 const BodySolver *alike);
+/// The same with the free motions of a body without blocks, which are known.
+Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
+                                const BodySolver *alike, FreeMotions free);
+
+/// The body, with the rows of supports that were eliminated fixed if it is grounded.
+AssembledBody with_eliminated(const AssembledBody &body);
+
+/// InputError unless a trace has the dofs of the nodes that it names, to 1e-9 of its size and
+/// to round-off of its coordinates.
+void require_in_place(const Trace &trace, const DofPlaces &places);
 
 } // namespace cattaneo

@@ -41,4 +41,10 @@ void meet_supports(ContactSurface &surface, const CondensedBody &body);
 Eigen::Matrix3d on_supports(const Eigen::Matrix3d &frame, const std::array<bool, 3> &held,
                             const std::string &where);
 
+/// The frame with the mean normal of two nodes that face each other. Its first tangent is that
+/// of the first node, or of the second one (`by_other`), turned to be perpendicular to the
+/// normal.
+Eigen::Matrix3d frame_between(const Eigen::Matrix3d &one, const Eigen::Matrix3d &other,
+                              bool by_other);
+
 } // namespace cattaneo

@@ -30,7 +30,19 @@ struct ContactRow
    /// The nodes whose components (along each tangent, and across) follow from relative
    /// displacements: the slave, or the one node that faces it. See choose_dependents().
    std::array<NodeOfBody, 3> dependent{slave, slave, slave};
+   /// Which component of each of them, in the order of its own frame: in space frames of both
+   /// bodies may have their tangents in either order.
+   std::array<int, 3> component{0, 1, 2};
 
+   /// The axis along which a component of a node is determined; -1: none.
+   int axis_of(const NodeOfBody &node, int of_node, int components) const
+   {
+      for (int b = 0; b < components; ++b)
+      {
+         if (dependent[b] == node && component[b] == of_node) { return b; }
+      }
+      return -1;
+   }
    /// The facing node if the slave is paired with just one node, with weight 1; else null.
    const NodeOfBody *partner() const;
 };
