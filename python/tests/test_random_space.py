@@ -64,8 +64,16 @@ class Joint:
         self.friction = random.uniform(0.05, 0.5)
         self.gaps = [random.uniform(0, 0.2, solid.bottom.sum()) * (random.random() < 0.5) for solid in self.solids]
         self.tractions = {"P": (0.0, -1.0, 0.0), "Q": (0.15, 0.0, 0.05), "R": tuple(random.uniform(-0.1, 0.1, 3))}
+        # Supports of two sides, along x and z, hold contact nodes of some bodies; a load may move one of the top body.
+        held = random.random() < 0.5
+        self.sides = [[held and random.random() < 0.5 for _ in range(2)] for _ in self.solids]
+        self.moves = None
+        if self.sides[-1][0] and count > 1 and not any(side[0] for side in self.sides[:-1]):
+            self.moves = random.uniform(-0.1, 0.1)
         ends = random.uniform(-1, 1, (3, 2)) * self.friction * np.array([6.0, 3.0])
         self.points = [{}, {"P": 1, "Q": 0.1 * self.friction}] + [{"Q": q, "R": r} for q, r in ends]
+        if self.moves:
+            self.points[2]["U"], self.points[4]["U"] = 1, -0.5
 
     def solved(self, turn=None, renumber=False, length=1.0, force=1.0):
         """Reduction and states, of the same joint turned, numbered otherwise, in other units."""
@@ -93,6 +101,15 @@ class Joint:
                 # Each other body has a small load of its own on all nodes.
                 for axis, each in zip("xyz", turn @ np.array([0.01, -0.02, 0.01]) * force / n):
                     body.add_forces("P", np.ones(n, bool), axis, each)
+            for side, axis in zip(self.sides[number], (0, 2)):
+                if not side:
+                    continue
+                along = np.argmax(np.abs(turn[:, axis]))
+                on = (solid.places[:, axis] < 1e-9)[new]
+                if axis == 0 and self.moves and number == len(self.solids) - 1:
+                    body.add_displacement("U", on, "xyz"[along], self.moves * turn[along, axis] * length)
+                else:
+                    body.fix(on, "xyz"[along])
             bodies.append(body)
             orders.append(new)
             own = {}
@@ -141,15 +158,16 @@ def checked_laws(reduction, states, friction):
     """The largest violation of the laws of contact, over the largest force or opening."""
     problem = reduction.problem
     n = problem.nodes
+    slides = ~np.isin(np.arange(2 * n), problem.held).reshape(2, n)  # supports take the rest
     v, worst, stick, slip, open_ = np.zeros((2, n)), 0.0, 0, 0, 0
     force = max(np.abs(state.p).max() for state in states)
     way = max(max(np.abs(state.w).max(), np.abs(state.v).max()) for state in states) + np.abs(problem.gap).max() or 1.0
     for state in states:
         opening, q, p = problem.gap + state.w, state.q.reshape(2, n), np.asarray(state.p)
+        q, dv = q * slides, (state.v.reshape(2, n) - v) * slides
         size = np.hypot(*q)
         worst = max(worst, -p.min() / force, -opening.min() / way, (np.minimum(p / force, opening / way)).max())
         worst = max(worst, (size - friction * p).max() / force)
-        dv = state.v.reshape(2, n) - v
         going = np.hypot(*dv)
         closed = p > 1e-9 * force
         slips = closed & (going > 1e-8 * way)
@@ -181,7 +199,8 @@ def checked_equilibrium(joint, reduction, bodies, condensed, state, multipliers)
     worst = 0.0
     for number, body in enumerate(bodies):
         u = reduction.displacement(number, state)
-        external = sum((multipliers.get(name, 0) * forces for name, forces in body.loads.items()), np.zeros(len(u)))
+        forces = {name: values for name, values in body.loads.items() if name != "U"}
+        external = sum((multipliers.get(name, 0) * values for name, values in forces.items()), np.zeros(len(u)))
         on_body = reduction.contact_forces(number, state)
         external[condensed[number].surface.dofs] += on_body
         free = np.setdiff1d(np.arange(len(u)), body.fixed)
@@ -230,6 +249,8 @@ def examined(seed):
     expected = fields(joint, run, np.eye(3), 1, 1)
     random = joint.random
     turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    if np.any(joint.sides):  # supports are along axes
+        turn = np.eye(3)[random.permutation(3)] * random.choice([-1, 1], 3)
     turn *= np.sign(np.linalg.det(turn))
     mirror = np.eye(3) - 2 * np.outer(turn[0], turn[0])
     for name, how in (
