@@ -17,9 +17,6 @@ namespace cattaneo
    the first body. Loads are joined by name. recover() gives the rows of the first body, then
    those of the second.
 
-    Worth it for large joints of about as many contact nodes on both sides as inside (a single
-    factor costs more than two small ones).
-
     @param partner  of each node of `surface1`: the node of `surface2` that faces it
                     (Pairing::partner)
     InputError as of condense(); if supports do not hold the second body, or hold a contact node
