@@ -260,6 +260,8 @@ def examined(seed):
         ("units", {"length": 1e3, "force": 1e-3}),
         ("all", {"turn": mirror @ turn, "renumber": True, "length": 1e-3, "force": 1e6}),
     ):
+        if not completed and name != "all":
+            continue  # to find the end takes long
         other = joint.solved(**how)
         assert other[-1].state.time == pytest.approx(report.state.time, abs=1e-3), name
         if not completed:
