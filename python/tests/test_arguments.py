@@ -129,6 +129,14 @@ SAID = [
     (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 0, 1, limits=np.eye(2), most=np.nan), ValueError, r"most\[0\] is nan"),
     (lambda: design.DesignSettings(tolerance=1e-20), ValueError, "design settings: tolerance is 1e-20, must be from 1e-14 to 1"),
     (lambda: design.design(chosen(), [9, 9]), ValueError, "variable 0 starts at 9, must lie between 0 and 1"),
+    # Calls that fit no signature.
+    (lambda: wear.WearLaw.uniform(problem(), "a"), TypeError, r"^uniform\(\): argument 'coefficient' is of type str, must be of type float$"),
+    (lambda: cattaneo.march(problem()), TypeError, r"^march\(\): argument 'history' is missing, must be of type LoadHistory | Sequence"),
+    (lambda: wear.WearLaw.uniform(problem(), k=1), TypeError, r"^uniform\(\): it has no argument 'k', must be \(problem: ReducedProblem, coefficient: float\)$"),
+    (lambda: wear.WearLaw.uniform(problem(), 1, 2), TypeError, r"^uniform\(\): there are 3 arguments without a name, must be at most 2: "),
+    (lambda: law().set(problem(), 3, 1.0), TypeError, r"^WearLaw.set\(\): argument 'interface' is of type int, must be of type str$"),
+    (lambda: fretting.Edge("a", 0, 0.5), TypeError, r"^Edge\(\): argument 'k_n' is of type str, must be of type float$"),
+    (lambda: cattaneo.condense(1, line=2), TypeError, r"^condense\(\): the arguments are \(int, line: int\), must be \(body: NodalStiffness, line: ContactLine\) or "),
 ]
 
 
@@ -174,7 +182,7 @@ def test_what_is_of_another_kind():
         lambda: shakedown.load_limit(problem=None, tol=1),
         lambda: fretting.pressure(fretting.Edge(1, 0, 0.5)),
     ):
-        with pytest.raises(TypeError, match="incompatible function arguments|unsupported operand|has no '"):
+        with pytest.raises(TypeError, match="must be|incompatible function arguments|unsupported operand|has no '"):
             call()
     with pytest.raises(TypeError, match="MarchSettings has no 'incremnts', it has 'friction', 'increments', "):
         cattaneo.march(p, [{}, {"P": 1}], incremnts=3)

@@ -269,9 +269,9 @@ def test_a_column_in_two_parts_that_are_joined(paired):
     forces = reduction.tied_forces(report.state).reshape(2, -1)
     assert forces[0] == pytest.approx(np.zeros(len(above)), abs=1e-12)
     assert abs(forces[1].sum()) == pytest.approx(1.0)
-    with pytest.raises(TypeError, match="incompatible function arguments"):
+    with pytest.raises(TypeError, match="must be|incompatible function arguments"):
         cattaneo.Interface("joint", (0, joint), tied=1)
-    with pytest.raises(TypeError, match="incompatible function arguments"):
+    with pytest.raises(TypeError, match="must be|incompatible function arguments"):
         cattaneo.Interface("joint", (0, joint), pairing=[])
 
 
@@ -290,7 +290,7 @@ def test_bodies_on_a_half_plane():
         lambda: cattaneo.reduce([condensed], [cattaneo.Interface("foot", (0, line), 1)], half_plane=3),
         lambda: cattaneo.reduce([condensed], [], pairing=3),
     ):
-        with pytest.raises(TypeError, match="incompatible function arguments"):
+        with pytest.raises(TypeError, match="must be|incompatible function arguments"):
             call()
 
 

@@ -240,7 +240,7 @@ def test_rounded_punch_of_least_pressure():
 
 
 def test_a_shape_says_what_is_wrong_with_it():
-    with pytest.raises(TypeError, match="incompatible function arguments"):
+    with pytest.raises(TypeError, match="must be|incompatible function arguments"):
         rounded_pad(3)
     with pytest.raises(TypeError, match="what the shape returned is a list of 1 entries, must be two arrays"):
         rounded_pad(lambda x: [x]).with_([0, 0])
@@ -395,7 +395,7 @@ def test_gradients_of_limits():
         assert by.load_factor * limit.limit / 2 == pytest.approx(-(by.constant * cycle.constant).sum(), rel=1e-3)
         if not coupled:
             assert by.load_factor * limit.limit / 2 == pytest.approx(least.limit, rel=1e-3)
-    with pytest.raises(TypeError, match="incompatible function arguments"):
+    with pytest.raises(TypeError, match="must be|incompatible function arguments"):
         design.load_limit_gradient(of, None)
     stop = threading.Event()
     stop.set()
