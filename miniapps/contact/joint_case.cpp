@@ -133,7 +133,9 @@ public:
    }
    std::array<double, 2> pair(const std::string &allowed = "two numbers") const
    {
-      if (!value_.is_array() || value_.size() != 2) { refuse(allowed); }
+      if (!value_.is_array()) { refuse(allowed); }
+      require(value_.size() == 2, called(), " is a list of ", value_.size(), ", must be ",
+              allowed);
       const std::vector<double> both = numbers(any);
       return {both[0], both[1]};
    }

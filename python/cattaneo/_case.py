@@ -139,7 +139,7 @@ def case(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, 
     try:
         name = os.fspath(file)
     except TypeError:
-        raise TypeError(f"file is a {type(file).__name__}, must be the name of a case file or a path") from None
+        raise TypeError(f"file is {file!r}, must be the name of a case file or a path") from None
     program = _program()
     with tempfile.TemporaryDirectory() as folder:
         at = pathlib.Path(folder)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdarg>
 #include <nanobind/nanobind.h>
 #include <string>
 #include <string_view>
@@ -61,8 +62,22 @@ std::string plain(const std::string &type)
          type[at] == '.' && at + 1 < type.size() && std::isalpha(type[at + 1]) != 0;
       if (of_module) { made.erase(made.find_last_of(" [|,(", made.size() - 2) + 1); }
    }
-   return made == "NoneType" ? "None" : made;
+   return made == "NoneType"                         ? "None"
+          : made == "nb_func" || made == "nb_method" ? "function"
+                                                     : made;
 }
+
+/// The type of an argument.
+struct Given
+{
+   std::string type;
+   bool own = false; ///< a class of this package
+
+   explicit Given(const std::string &full)
+      : type(plain(full)), own(full.rfind("cattaneo.", 0) == 0)
+   {
+   }
+};
 
 struct Parameter
 {
@@ -100,26 +115,49 @@ Signature signature_of(const std::string &line)
    return made;
 }
 
-/// Is it sure that no object of this type fits? Classes may have others that derive from them,
-/// and arrays may be made of anything.
-bool misfits(const std::string &needed, const std::string &given)
+/// The alternatives of a type, as of "A | list[B | C] | None".
+Words alternatives(const std::string &type)
 {
-   const std::string or_none = " | None";
-   const std::size_t end = needed.size() - std::min(needed.size(), or_none.size());
-   if (needed.substr(end) == or_none)
+   Words all(1);
+   int depth = 0;
+   for (const char c : type)
    {
-      return given != "None" && misfits(needed.substr(0, end), given);
+      depth += c == '[' || c == '(' ? 1 : c == ']' || c == ')' ? -1 : 0;
+      if (c == '|' && depth == 0) { all.emplace_back(); }
+      else { all.back() += c; }
    }
-   const auto is_one_of = [&](std::initializer_list<const char *> all)
-   { return std::find(all.begin(), all.end(), given) != all.end(); };
-   const bool builtin = is_one_of({"int", "float", "str", "bool", "list", "dict", "tuple",
-                                   "set", "bytes", "None", "complex", "function"});
-   if (needed == "float") { return builtin && !is_one_of({"int", "float", "bool"}); }
-   if (needed == "int") { return builtin && !is_one_of({"int", "bool"}); }
-   if (needed == "bool" || needed == "str") { return given != needed; }
-   const bool one_class = needed.find_first_of(" |[") == std::string::npos &&
-                          needed != "object" && needed != "ArrayLike" && needed != "Any";
-   return one_class && needed != given && builtin;
+   for (std::string &one : all) { one = trimmed(one); }
+   return all;
+}
+
+/// Is it sure that no object of this type fits? None of this package's classes derives from
+/// another one. Of other packages' classes nothing is known.
+bool misfits(const std::string &needed, const Given &given)
+{
+   const Words all = alternatives(needed);
+   if (all.size() > 1)
+   {
+      return std::all_of(all.begin(), all.end(),
+                         [&](const std::string &one) { return misfits(one, given); });
+   }
+   const auto is_one_of = [&](std::initializer_list<const char *> types)
+   { return std::find(types.begin(), types.end(), given.type) != types.end(); };
+   const bool function = is_one_of({"function", "method", "builtin_function_or_method"}),
+              known = given.own || function ||
+                      is_one_of({"int", "float", "str", "bool", "list", "dict", "tuple", "set",
+                                 "bytes", "None", "complex", "module"});
+   if (!known || needed == "object" || needed == "Any") { return false; }
+   if (needed == "float") { return !is_one_of({"int", "float", "bool"}); }
+   if (needed == "int") { return !is_one_of({"int", "bool"}); }
+   if (needed.rfind("Callable", 0) == 0) { return !function && !given.own; }
+   if (needed == "ArrayLike" || needed.find('.') != std::string::npos) { return false; }
+   const std::string outer = needed.substr(0, needed.find('['));
+   if (outer == "Sequence" || outer == "list" || outer == "tuple")
+   {
+      return !is_one_of({"list", "tuple", "str", "bytes"});
+   }
+   if (outer == "Mapping" || outer == "dict") { return given.type != "dict"; }
+   return needed != given.type;
 }
 
 /// The one sentence about a call that fits no signature.
@@ -143,25 +181,25 @@ std::string sentence(const std::string &message)
       }
       from = to;
    }
-   Words given;
-   std::vector<std::pair<std::string, std::string>> named;
+   std::vector<Given> given;
+   std::vector<std::pair<std::string, Given>> named;
    for (const std::string &piece : pieces(message.substr(types + invoked.size())))
    {
       if (piece.rfind("kwargs = {", 0) != 0)
       {
-         given.push_back(plain(piece));
+         given.emplace_back(piece);
          continue;
       }
       for (const std::string &one : pieces(piece.substr(10)))
       {
          const std::size_t colon = one.find(':');
          named.emplace_back(trimmed(one.substr(0, colon)),
-                            plain(trimmed(one.substr(colon + 1))));
+                            Given(trimmed(one.substr(colon + 1))));
       }
    }
    if (method && !given.empty())
    {
-      name = name == "__init__" ? given[0] : given[0] + "." + name;
+      name = name == "__init__" ? given[0].type : given[0].type + "." + name;
       given.erase(given.begin());
    }
    std::string must, has;
@@ -169,10 +207,10 @@ std::string sentence(const std::string &message)
    {
       must += (must.empty() ? "(" : " or (") + each.text + ")";
    }
-   for (const std::string &type : given) { has += (has.empty() ? "" : ", ") + type; }
-   for (const auto &[key, type] : named)
+   for (const Given &each : given) { has += (has.empty() ? "" : ", ") + each.type; }
+   for (const auto &[key, each] : named)
    {
-      has += (has.empty() ? "" : ", ") + key + ": " + type;
+      has += (has.empty() ? "" : ", ") + key + ": " + each.type;
    }
    const std::string all = name + "(): the arguments are (" + has + "), must be " + must;
    if (signatures.size() != 1) { return all; }
@@ -183,9 +221,11 @@ std::string sentence(const std::string &message)
    while (places < one.parameters.size() && !one.parameters[places].by_name) { ++places; }
    if (given.size() > places)
    {
-      return name + "(): there are " + std::to_string(given.size()) +
-             " arguments without a name, must be at most " + std::to_string(places) + ": " +
-             must;
+      return name + "(): " +
+             (given.size() == 1 ? "there is 1 argument"
+                                : "there are " + std::to_string(given.size()) + " arguments") +
+             " without a name, must be " +
+             (places == 0 ? "none" : "at most " + std::to_string(places) + ": " + must);
    }
    for (const auto &each : named)
    {
@@ -210,10 +250,10 @@ std::string sentence(const std::string &message)
          }
          continue;
       }
-      const std::string &type = k < given.size() ? given[k] : its->second;
-      if (misfits(p.type, type))
+      const Given &its_type = k < given.size() ? given[k] : its->second;
+      if (misfits(p.type, its_type))
       {
-         return name + "(): argument '" + p.name + "' is of type " + type +
+         return name + "(): argument '" + p.name + "' is of type " + its_type.type +
                 ", must be of type " + p.type;
       }
    }
@@ -242,5 +282,20 @@ extern "C"
          }
       }
       __real_PyErr_SetString(type, message);
+   }
+
+   PyObject *__wrap_PyErr_Format(PyObject *type, const char *format, ...)
+   {
+      va_list values;
+      va_start(values, format);
+      const bool no_constructor = std::string_view(format) == "%s: no constructor defined!";
+      PyErr_FormatV(type,
+                    no_constructor
+                       ? "%s cannot be called: such objects are made by functions or static "
+                         "methods, which help() of the class or of its module names"
+                       : format,
+                    values);
+      va_end(values);
+      return nullptr;
    }
 }

@@ -129,7 +129,13 @@ SAID = [
     (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 0, 1, limits=np.eye(2), most=np.nan), ValueError, r"most\[0\] is nan"),
     (lambda: design.DesignSettings(tolerance=1e-20), ValueError, "design settings: tolerance is 1e-20, must be from 1e-14 to 1"),
     (lambda: design.design(chosen(), [9, 9]), ValueError, "variable 0 starts at 9, must lie between 0 and 1"),
+    (lambda: cattaneo.load_reduced_problem(__file__), ValueError, "is not a reduced problem: it is not JSON, must be a file that"),
+    (lambda: cattaneo.load_contact_state(__file__), ValueError, "is not a contact state: it is not JSON, must be a file that a march has saved"),
     # Calls that fit no signature.
+    (cattaneo.ContactState, TypeError, "ContactState cannot be called: such objects are made by functions or static methods"),
+    (lambda: wear.wear(problem(), law(), [{}, {"P": 1}], 3), TypeError, r"^wear\(\): argument 'history' is of type list, must be of type LoadHistory$"),
+    (lambda: cattaneo.march(problem(), history(), state=law()), TypeError, r"argument 'state' is of type WearLaw, must be of type ContactState \| None$"),
+    (lambda: problem().copy(1), TypeError, r"^ReducedProblem.copy\(\): there is 1 argument without a name, must be none$"),
     (lambda: wear.WearLaw.uniform(problem(), "a"), TypeError, r"^uniform\(\): argument 'coefficient' is of type str, must be of type float$"),
     (lambda: cattaneo.march(problem()), TypeError, r"^march\(\): argument 'history' is missing, must be of type LoadHistory | Sequence"),
     (lambda: wear.WearLaw.uniform(problem(), k=1), TypeError, r"^uniform\(\): it has no argument 'k', must be \(problem: ReducedProblem, coefficient: float\)$"),

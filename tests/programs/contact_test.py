@@ -319,6 +319,7 @@ MISTAKES = [
     ({}, ["--load-state", "nowhere.json"], ["nowhere.json", "cannot read"]),
     ({}, ["--wrong", 3], ["Unrecognized option", "--wrong"]),
     ({"yung": 2}, [], ["case.json", "'yung'", "bodies, interfaces"]),
+    ({"points": {"tip": [0, 0, 0]}}, [], ["key 'points.tip' is a list of 3, must be two numbers"]),
     ({"order": "2"}, [], ["'order'", "\"2\"", "an integer"]),
     ({"order": 1.5}, [], ["'order'", "1.5", "an integer"]),
 ]

@@ -109,11 +109,13 @@ void read_state_file(const std::string &what, const std::string &file,
       const std::string said = e.what();
       const std::size_t from = std::min(said.find('\''), said.size()),
                         to = std::min(said.rfind('\''), said.size());
+      constexpr int no_json = 101;
+      const std::string must = ", must be a file that a march has saved";
       throw InputError(what + ": file '" + file + "' is not a " + what + ": " +
                        (e.id == no_such_key
-                           ? "it lacks the key " + said.substr(from, to - from) +
-                                "', must be a file that a march has saved"
-                           : said));
+                           ? "it lacks the key " + said.substr(from, to - from) + "'" + must
+                        : e.id == no_json ? "it is not JSON" + must
+                                          : said.substr(said.find("] ") + 2)));
    }
 }
 

@@ -290,8 +290,13 @@ ReducedProblem load_reduced_problem(const std::string &file)
       require(error.id != no_such_key, "reduced problem: file '", file,
               "' is not a reduced problem: it lacks the key ", what.substr(from, to - from),
               "', must be a file that --save or save() wrote");
+      constexpr int no_json = 101;
+      require(error.id != no_json, "reduced problem: file '", file,
+              "' is not a reduced problem: it is not JSON, must be a file that --save or "
+              "save() wrote");
+      // Behind the library's name of the error.
       throw InputError("reduced problem: file '" + file +
-                       "' is not a reduced problem: " + what);
+                       "' is not a reduced problem: " + what.substr(what.find("] ") + 2));
    }
    problem.validate();
    require_all_motions(problem);
