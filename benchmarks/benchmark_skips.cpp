@@ -151,8 +151,8 @@ int main()
       return miniapp::make_disc(options).reduction.counters.assemblies;
    };
    row(
-      "no torsion: no operator of it", "assemblies", [&] { return disc(miniapp::Twist::none); },
-      [&] { return disc(miniapp::Twist::top); });
+      "no torsion: no torsion operator", "assemblies",
+      [&] { return disc(miniapp::Twist::none); }, [&] { return disc(miniapp::Twist::top); });
    miniapp::Scene block = punch();
    set_friction(block.reduction.problem, 0.2);
    const auto with_fields = [&](bool wanted)
@@ -168,7 +168,7 @@ int main()
       return block.reduction.counters.field_recoveries - before;
    };
    row(
-      "no fields asked for: none recovered", "field_recoveries",
+      "no fields requested: none recovered", "field_recoveries",
       [&] { return with_fields(false); }, [&] { return with_fields(true); });
 
    ReducedProblem uncoupled = pair.reduction.problem;
