@@ -2,11 +2,12 @@
 //
 //  Thesis chapter 7. The disc, of thickness t and radius b, is pressed by p0 on its top for
 //  r < a; beyond r = d it lifts off, and slip spreads between d and a stick zone r < c. Loading
-//  is self-similar: one increment is exact. Twisting holds the pressure and prescribes the
-//  rotation of the top, of its loaded part or of the rim (the torque may then pass a maximum),
-//  or the torque itself, as a shear on the loaded part. T_s = f Σ r p, with the pressure of the
-//  contact without friction, is the torque of steady spinning. Units t = p0 = E = 1: rotations
-//  are in p0/E, torques in p0 t³ and over the whole circumference.
+//  is self-similar: one increment is exact. In torsion the pressure is constant, and the
+//  program prescribes the rotation of the top, of its loaded part or of the rim (the torque
+//  may then pass a maximum), or the torque itself, as a shear on the loaded part. The torque
+//  of steady spinning is T_s = f Σ r p, with the pressure of the contact without friction.
+//  Units t = p0 = E = 1: rotations are in p0/E, torques in p0 t³ and over the whole
+//  circumference.
 //
 //  Sample runs:
 //    axisymmetric_receding

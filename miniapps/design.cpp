@@ -1,17 +1,17 @@
-//  design: the profile that presses least, or loses most or least, found by the program
+//  design: finds the profile with the least pressure, or with the most or least energy loss
 //
-//  A pad |x| < a of a half-plane's material (no mesh, P = a = 1, E* = 4/π), or the square punch
-//  on a half-plane (a = E' = 1), flat at first, is given a gap: free at every node, a crown of
-//  few powers of x/a, or rounded, flat for |x| < b and of radius R beyond. Wanted is the least
-//  of the largest pressures under all loads, which for one of them is the punch of uniform
-//  pressure; or, in a cycle of Q between ±f P times --amplitude, the least or the most energy
-//  lost, or the least of what a node loses at most per area (energy, a criterion of fretting).
-//  Under bounds, and limits of curvature. With --coat not the gap is chosen but friction in
-//  zones; of a saved reduced problem (--reduced, in its own units, through a history of your
-//  own) by
-//  --choose also loads, whose sum stays: the pretensions of a row of bolts, and where there are
-//  bolts at all. --save writes the designed problem. An optimum is one among its neighbours;
-//  --starts begins elsewhere too: docs/design.md.
+//  A pad |x| < a of a half-plane's material (no mesh, P = a = 1, E* = 4/π), or the square
+//  punch on a half-plane (a = E' = 1), is flat at first. It is given a gap: free at every
+//  node, a crown of few powers of x/a, or rounded, that is flat for |x| < b and of radius R
+//  beyond. The goal is the smallest peak pressure under all loads (for a single load the
+//  solution is the punch of uniform pressure). For a cycle of Q between ±f P times --amplitude
+//  the goal is the smallest or the largest energy loss, or the smallest peak of the loss per
+//  area (energy, a criterion of fretting). The gap and its curvature may have limits. With
+//  --coat the program chooses the friction in zones instead of the gap. For a saved reduced
+//  problem (--reduced, in its own units, through a history of your own) it can also choose
+//  loads whose sum is constant (--choose): the pretensions of a row of bolts, and so where
+//  bolts are needed at all. --save writes the designed problem. An optimum is a local one;
+//  --starts searches from other places too: docs/design.md.
 //
 //  Sample runs:
 //    design

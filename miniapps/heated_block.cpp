@@ -1,9 +1,9 @@
 //  heated_block: contact in a few lines added to a program of your own (MFEM's style, as ex2)
 //
 //  The right half of a block 2L wide and h high is held at the top and grows toward a rigid
-// plane at a distance g as its temperature rises by ΔT. All of the body belongs to the program:
-// mesh, H1 space, bilinear form, coefficients, thermal load and stresses.
-//  Cattaneo takes the matrix, the forces and the held true dofs, and finds the contact. Without
+//  plane at a distance g as its temperature rises by ΔT. All of the body belongs to the
+//  program: mesh, H1 space, bilinear form, coefficients, thermal load and stresses. Cattaneo
+//  takes the matrix, the forces and the held true dofs, and finds the contact. Without
 //  friction the pressure is uniform in plane strain,
 //
 //     p = E α ΔT / (1 - ν) - E g / ((1 - ν²) h),  or 0 if the block does not reach the plane.

@@ -1,10 +1,11 @@
 //  hertz: parabolic contact pressed, then sheared, against Hertz and Cattaneo-Mindlin
 //
-//  Case III of the thesis (3.7.3). Two equal half-planes with an initial gap x²/2R, or a square
-//  block (side 2a) with that gap on a similar half-plane. E' = E/(1-ν²) = 1 for each body, so
-//  that E* = 1/2. The half-planes' length unit is the Hertz half-width b, the block's is a. The
-//  computed pressure and shear are compared with the closed forms node by node; on the block
-//  the contact is coupled and truly deviates from them.
+//  Case III of the thesis (3.7.3). Two equal half-planes with an initial gap x²/2R, or a
+//  square block (side 2a) with that gap on a similar half-plane. E' = E/(1-ν²) = 1 for each
+//  body, so that E* = 1/2. The unit of length is the Hertz half-width b with half-planes, and
+//  a with the block. The computed pressure and shear are compared with the closed forms node
+//  by node. Slip and pressure of the block are coupled, so that its contact really differs
+//  from them.
 //
 //  Sample runs:
 //    hertz

@@ -1,18 +1,20 @@
 //  shakedown: when a cyclically sheared contact stops slipping, with a proof on either side
 //
 //  Chapter 4 of the thesis: a square block, |x| < a, on an elastically similar half-plane is
-//  pressed by P and sheared by a Q that goes to and fro between λmin P and λmax P. Which
-//  friction coefficient does it take, or which load can it bear, for the slip to die out? Two
-//  estimates, the exact limit by Melan's theorem with bounds on either side that are proven for
-//  a contact whose nodes all stay closed, the adhesion of the monolith, marches in time, which
-//  say so where nodes open. A limit that is decided where tractions are singular is one of the
-//  mesh, not of the bodies, and the result says that. Units a = P = E' = 1, E' = E/(1-ν²).
+//  pressed by P and sheared by a Q that goes to and fro between λmin P and λmax P. With which
+//  coefficient of friction, or up to which load, does the slip die out? The program gives two
+//  estimates; the exact limit (Melan), with bounds that are proven for a contact whose nodes
+//  all stay closed; the stick zone of the two bodies joined as one (monolith); and marches in
+//  time, which report nodes that open. A limit that is decided where tractions are singular is
+//  one of the mesh, not of the bodies, and the result says so. Units a = P = E' = 1,
+//  E' = E/(1-ν²).
 //
-//  Also for any contact saved with --save (or save() of a reduced problem): name the pattern
-//  that is held and the one that is cycled; --closed keeps the nodes that stay closed in a
-//  march at the limit, and marches the whole contact on both sides of it. With --plot the maps
-//  and the marches are made. With a law of friction other than Coulomb's, of --strength or of
-//  the file, it is the largest load that is found, which needs a law that never gets steeper.
+//  Any contact saved with --save (or save() of a reduced problem) can be used as well: name
+//  the load pattern that is held and the one that is cycled. --closed keeps only the nodes
+//  that stay closed in a march at the limit, and marches the whole contact on both sides of
+//  the limit. With --plot the maps and the marches are made. If the law of friction is not
+//  Coulomb's (by --strength, or in the file), only the largest load is found, and the law must
+//  never get steeper.
 //
 //  Sample runs:
 //    shakedown

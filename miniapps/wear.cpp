@@ -1,13 +1,12 @@
 //  wear: fretting wear of a contact in partial slip, cycle by cycle and at its end
 //
-//  A parabola 1/R on a half-plane of the same material, pressed by P; Q swings between ±f P
-//  times
-//  --amplitude, and the surfaces wear by Archard's law, depth = k p |slip|, both together.
-//  Units: a (half-width of the unworn contact) = P = R = 1. Wear ends when what slips carries
-//  nothing: that state is also solved for directly, and compared with Ciavarella and Hills
-//  (1999). With
-//  --reduced any saved reduced problem, in its own units, through a history of your own. No
-//  debris, and depth must be small against the contact: docs/wear.md.
+//  A parabola 1/R on a half-plane of the same material is pressed by P, and Q goes to and fro
+//  between ±f P times --amplitude. The surfaces wear by Archard's law, depth = k p |slip|,
+//  with the k of both together. Units: a (half-width of the unworn contact) = P = R = 1. Wear
+//  ends when slipping nodes carry no force. This state is also computed directly, and compared
+//  with Ciavarella and Hills (1999). With --reduced the program takes any saved reduced
+//  problem, in its own units, through a history of your own. There is no debris, and the depth
+//  must be small compared with the contact: docs/wear.md.
 //
 //  Sample runs:
 //    wear

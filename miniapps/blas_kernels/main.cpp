@@ -1,10 +1,9 @@
-// blas_kernels: the kernels that OpenBLAS works with here, for ./run, `cattaneo` and ./test
+// blas_kernels: the kernels that OpenBLAS uses here, for ./run, `cattaneo` and ./test
 // --kernels.
 //
-//    blas_kernels           their name; empty with another BLAS
-// blas_kernels --better name of kernels that are far faster on this processor; empty: there are
-// none blas_kernels --check their name; exit code 1 if they do not multiply small matrices
-//    right
+//    blas_kernels           prints their name; nothing with another BLAS
+//    blas_kernels --better  the name of far faster kernels for this processor, if there are any
+//    blas_kernels --check   their name; exit code 1 if they do not multiply correctly
 //
 // It links nothing but LAPACK, and starts in milliseconds.
 
