@@ -566,8 +566,8 @@ void bind_stiffness(nb::module_ &m)
          "nodes: the name of a set, numbers of nodes, or a mask over `nodes`: all outer faces "
          "of elements whose nodes are among them. Or (faces, 3 or 4) nodes, the faces "
          "themselves, where no elements are known; (faces, 6, 8 or 9) with the middles of "
-         "edges "
-         "and faces after the corners.")
+         "edges and faces after the corners; (faces, 10 or 16) of order 3, with two nodes of "
+         "each edge, at its thirds, after the corners, and then those inside.")
       .def("__repr__", &brief);
 
    m.def(
@@ -792,8 +792,7 @@ void bind_surfaces(nb::module_ &m)
             return all;
          },
          "numbers of the nodes of each face: three or four corners in their order around it, "
-         "then "
-         "the middles of the edges and of the face, if it has them")
+         "then those of the edges and inside, if it has them")
       .def("__repr__",
            [](const Self &self)
            {

@@ -346,6 +346,7 @@ def test_equilibrium_in_long_double_and_restart():
     slip = np.hypot(*state.q.reshape(2, -1)) > 0.3 * state.p * (1 - 1e-9)
     assert slip.any() and not slip.all()
     long = np.longdouble
+    on, places = [], []
     for number, body in enumerate((upper, lower)):
         u = reduction.displacement(number, state).astype(long)
         K = body.K.tocoo()
@@ -354,9 +355,19 @@ def test_equilibrium_in_long_double_and_restart():
         external = np.zeros(K.shape[0], long)
         for name, forces in body.loads.items():
             external += long({"P": 1, "Q": -0.25}[name]) * forces.astype(long)
-        external[condensed[number].surface.dofs] += reduction.contact_forces(number, state)
+        dofs = condensed[number].surface.dofs
+        on.append((internal - external)[dofs])  # of the contact, by K u alone
+        places.append(u[dofs])
+        external[dofs] += reduction.contact_forces(number, state)
         free = np.setdiff1d(np.arange(K.shape[0]), body.fixed)
         assert np.abs(internal - external)[free].max() < 2e-12 * np.abs(external).max()
+    # Laws between these forces and displacements: the normal is y, the gap 0.
+    partner = cattaneo.pair_surfaces(condensed[0].surface, condensed[1].surface).partner
+    force, opening, size = on[0], (places[0] - places[1][partner])[:, 1], np.abs(on[0]).max()
+    assert np.abs(force + on[1][partner]).max() < 4e-12 * size
+    assert force[:, 1].min() > -4e-12 * size and np.abs(opening[force[:, 1] > 1e-9 * size]).max() < 4e-12 and opening.min() > -4e-12
+    excess = np.hypot(force[:, 0], force[:, 2]) - long(0.3) * force[:, 1]
+    assert excess.max() < 4e-12 * size and np.abs(excess[slip]).max() < 4e-12 * size
 
 
 def test_support_that_moves_with_contact_nodes():
