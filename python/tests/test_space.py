@@ -442,3 +442,25 @@ def test_joint_in_relative_coordinates():
     assert together.displacement(0, states[0]) == pytest.approx(apart, abs=1e-12)
     with pytest.raises(cattaneo.InputError, match="second body free"):
         cattaneo.condense_joint(lower, faces[1], upper, faces[0], cattaneo.pair_surfaces(faces[1], faces[0]))
+
+
+@pytest.mark.parametrize("young", [(1, 1), (1, 10), (10, 1)])
+def test_supports_of_one_body_alone(young):
+    """Supports hold contact nodes of the lower block alone, softer or stiffer than the upper one: both bodies alone are the joint in relative coordinates, whichever is named first."""
+    x, z = np.linspace(0, 2, 4), np.linspace(0, 1, 3)
+    lower, upper = block(x, np.linspace(-1, 0, 3), z, young[0], 0.2, "lower"), block(x, np.linspace(0, 1, 3), z, young[1], 0.3, "upper")
+    lower.fix(lower.places[:, 1] == -1, "xyz")
+    lower.fix(lower.places[:, 2] == 0, "z")
+    lower.fix(lower.places[:, 0] == 2, "x")
+    upper.add_traction("P", upper.places[:, 1] == 1, (0.1, -1, 0.05))
+    faces = [body.contact_surface(body.places[:, 1] == 0) for body in (upper, lower)]
+    pairs = cattaneo.pair_surfaces(*faces)
+    both = [cattaneo.condense(body, face) for body, face in zip((upper, lower), faces)]
+    joint = cattaneo.condense_joint(upper, faces[0], lower, faces[1], pairs)
+    forces = []
+    for reduction, of_upper in ((cattaneo.reduce(joint, pairs.gap), 0), (cattaneo.reduce(*both), 0), (cattaneo.reduce(*both[::-1]), 1)):
+        reduction.problem.friction = 0.2
+        state = cattaneo.march(reduction.problem, [{}, {"P": 1}, {"P": 0.7}], increments=3).state
+        forces.append(reduction.contact_forces(of_upper, state))
+    assert forces[0].sum(axis=0) == pytest.approx([-0.14, 1.4, -0.07])
+    assert forces[1] == pytest.approx(forces[0], abs=1e-11) and forces[2] == pytest.approx(forces[0], abs=1e-11)
