@@ -36,24 +36,14 @@ RelativeDisplacement::Matrix matrix(Index rows, const std::vector<Sum> &sums)
    return made;
 }
 
-/// A block of a node.
-using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
-
 /// {v; w} of a contact node by those of a body's node: rows and columns tangential, normal.
-Small turned(const ContactRow &row, const TraceShare &share, const CondensedBody &body)
+SmallMatrix turned(const ContactRow &row, const TraceShare &share, const CondensedBody &body)
 {
-   const Small directions = body.directions(share.of.second);
-   if (directions.rows() == 3)
-   {
-      const Eigen::Vector3d weight(share.x, share.y, share.z);
-      return row.axes * weight.asDiagonal() * directions;
-   }
-   const Eigen::Vector2d &t = row.tangent, n(-t[1], t[0]), weight(share.x, share.y),
-                         v = weight.cwiseProduct(directions.col(0)),
-                         w = weight.cwiseProduct(directions.col(1));
-   Small block(2, 2);
-   block << t.dot(v), t.dot(w), n.dot(v), n.dot(w);
-   return block;
+   const SmallMatrix directions = body.directions(share.of.second);
+   const Index d = directions.rows();
+   const SmallMatrix weighted =
+      Eigen::Vector3d(share.x, share.y, share.z).head(d).asDiagonal() * directions;
+   return row.frame(d) * weighted;
 }
 
 /// The components of a node, in its own frame, that lie along the axes of a row: in space the
@@ -72,6 +62,14 @@ bool holds(const CondensedBody &body, int node, int component)
 {
    const auto row = static_cast<int>(node + component * body.nodes());
    return std::binary_search(body.held.begin(), body.held.end(), row);
+}
+
+SmallMatrix ContactRow::frame(Index components) const
+{
+   if (components == 3) { return axes; }
+   SmallMatrix made(2, 2);
+   made << tangent[0], tangent[1], -tangent[1], tangent[0];
+   return made;
 }
 
 const NodeOfBody *ContactRow::partner() const
@@ -209,11 +207,12 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       if (made[i]) { return; }
       made[i] = true;
       const ContactRow &row = rows[i];
-      Small own = Small::Zero(components, components); // columns: of the dependent components
+      SmallMatrix own =
+         SmallMatrix::Zero(components, components); // columns: of the dependent components
       std::array<Sum, 3> rest;
       for (const TraceShare &share : row.shares)
       {
-         Small block = Small::Constant(1, 1, share.x);
+         SmallMatrix block = SmallMatrix::Constant(1, 1, share.x);
          if (components > 1) { block = turned(row, share, bodies[share.of.first]); }
          for (int b = 0; b < components; ++b)
          {
@@ -243,7 +242,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
          own.col(a).setZero();
          own(a, a) = 1;
       }
-      const Small inverse = own.inverse();
+      const SmallMatrix inverse = own.inverse();
       for (int b = 0; b < components; ++b)
       {
          const int column = dof(row.dependent[b], row.component[b]);

@@ -25,14 +25,7 @@ MatrixXd Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
    const auto add = [&](int row, const VectorXd &in_frame)
    {
       const ContactRow &of = rows_->rows[row];
-      Eigen::Vector3d its(0, 0, 0);
-      if (d == 3) { its = of.axes.transpose() * in_frame; }
-      else
-      {
-         const Eigen::Vector2d &t = of.tangent;
-         its[0] = in_frame[0] * t[0] - in_frame[1] * t[1];
-         its[1] = in_frame[0] * t[1] + in_frame[1] * t[0];
-      }
+      const VectorXd its = of.frame(d).transpose() * in_frame;
       for (const TraceShare &share : of.shares)
       {
          if (share.of.first != b) { continue; }

@@ -13,7 +13,6 @@ namespace cattaneo
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 namespace
@@ -239,16 +238,6 @@ std::vector<int> at(const std::vector<int> &numbers, const std::vector<int> &of)
    return found;
 }
 
-/// Rows: tangents and the normal of a contact node, in components of the bodies.
-MatrixXd axes_of(const ContactRow &row, int components)
-{
-   if (components == 3) { return row.axes; }
-   const Vector2d &t = row.tangent;
-   MatrixXd axes(2, 2);
-   axes << t[0], t[1], -t[1], t[0];
-   return axes;
-}
-
 /// Relative displacements {v; w} that contact nodes have where loads move held components of
 /// them, a column a pattern; empty: no load does.
 MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
@@ -260,7 +249,7 @@ MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRow
    for (Index i = 0; i < n; ++i)
    {
       const ContactRow &row = rows.rows[i];
-      const MatrixXd axes = axes_of(row, components);
+      const SmallMatrix frame = row.frame(components);
       for (const TraceShare &share : row.shares)
       {
          const CondensedBody &body = bodies[share.of.first];
@@ -274,7 +263,7 @@ MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRow
             }
             if (by.isZero(0)) { continue; }
             if (moved.size() == 0) { moved = MatrixXd::Zero(components * n, count); }
-            const VectorXd along = axes * by;
+            const VectorXd along = frame * by;
             for (int c = 0; c < components; ++c)
             {
                moved(c * n + i, index[share.of.first][k]) += along[c];

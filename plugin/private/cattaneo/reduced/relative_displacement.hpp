@@ -9,6 +9,9 @@ namespace cattaneo
 /// A node of a body's trace, over all bodies.
 using NodeOfBody = std::pair<int, int>;
 
+/// A block of a node.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
 /// The share of a node of a body's trace in a contact node, for each global component.
 struct TraceShare
 {
@@ -43,6 +46,8 @@ struct ContactRow
       }
       return -1;
    }
+   /// Rows: the tangents and the normal, in the components of the bodies; of a line 2 × 2.
+   SmallMatrix frame(Eigen::Index components) const;
    /// The facing node if the slave is paired with just one node, with weight 1; else null.
    const NodeOfBody *partner() const;
 };
