@@ -573,7 +573,7 @@ Eigen::Vector2d OwnPart::middle(const JointCase::Side &end) const
       boundary_part(end.called, end.part, terms_), end.called + ": '" + end.part + "'");
    require(extent.size > 0, end.called, ": there is nothing on '", end.part,
            "', must be a part of the boundary");
-   return extent.middle;
+   return extent.middle.head<2>();
 }
 
 void OwnPart::pull(const std::string &load, const JointCase::Side &end,

@@ -296,8 +296,8 @@ TEST(Body, SaysWhatIsWrong)
       },
       "element attribute 3");
    EXPECT_NO_THROW(ElasticBody(mesh, 1, Material{}));
-   mfem::Mesh solid = mfem::Mesh::MakeCartesian3D(1, 1, 1, mfem::Element::HEXAHEDRON);
-   expect_input_error([&] { ElasticBody(solid, 1, Material{}); }, "dimension 3");
+   mfem::Mesh line = mfem::Mesh::MakeCartesian1D(1);
+   expect_input_error([&] { ElasticBody(line, 1, Material{}); }, "dimension 1");
    mfem::Mesh broken = block("quads");
    broken.GetVertex(3)[0] = nan_value;
    expect_input_error([&] { ElasticBody(broken, 1, Material{}); }, "node 3");

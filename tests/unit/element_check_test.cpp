@@ -166,10 +166,10 @@ TEST(ElementCheck, CurvedElementsInsideOutAreNamed)
 TEST(ElementCheck, MeshesOutOfThePlaneAreNamed)
 {
    const Points square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-   expect_fault(
-      mesh_of(square, {{0, 1, 2, 3}}, 3, 0.25),
-      "of dimension 2 in space of dimension 3, both must be 2; element 0 (attribute 1, "
-      "centre (0.5, 0.5)) is at z = 0.25: turn the mesh into the xy plane");
+   expect_fault(mesh_of(square, {{0, 1, 2, 3}}, 3, 0.25),
+                "of dimension 2 in space of dimension 3, both must be 2, or both 3; element 0 "
+                "(attribute 1, "
+                "centre (0.5, 0.5)) is at z = 0.25: turn the mesh into the xy plane");
    // Where several elements are out of the plane, the message names the farthest.
    mfem::Mesh slope = mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}},
                               {{0, 1, 2, 3}, {1, 4, 5, 2}}, 3, 0.25);
@@ -185,8 +185,78 @@ TEST(ElementCheck, MeshesOutOfThePlaneAreNamed)
    }
    stairs.GetVertex(9)[2] = -1; // 0.5, 0, 3, 2.75
    expect_fault(std::move(stairs), "element 2 (attribute 3, centre (2.5, 0.5)) is at z = 3");
-   mfem::Mesh solid = mfem::Mesh::MakeCartesian3D(1, 1, 1, mfem::Element::HEXAHEDRON);
-   expect_fault(std::move(solid), "the mesh is of dimension 3");
+}
+
+TEST(ElementCheck, SolidsAreChecked)
+{
+   using Type = mfem::Element::Type;
+   const auto moved = [](Type type, int order, int vertex, const std::array<double, 3> &to)
+   {
+      mfem::Mesh mesh = mfem::Mesh::MakeCartesian3D(1, 1, 1, type);
+      if (vertex >= 0)
+      {
+         for (int c = 0; c < 3; ++c) { mesh.GetVertex(vertex)[c] = to[c]; }
+      }
+      if (order > 1) { mesh.SetCurvature(order); }
+      return mesh;
+   };
+   for (const Type type : {Type::HEXAHEDRON, Type::WEDGE, Type::TETRAHEDRON})
+   {
+      for (const int order : {1, 2, 3}) { expect_sound(moved(type, order, -1, {})); }
+   }
+   // The corner (1, 1, 1) of a cube is drawn along the diagonal. There the determinant is that
+   // of three edges, 3 t - 2 if the corner is at t.
+   expect_sound(moved(Type::HEXAHEDRON, 1, 7, {0.67, 0.67, 0.67}));
+   expect_fault(moved(Type::HEXAHEDRON, 1, 7, {0.66, 0.66, 0.66}), "is folded over");
+   expect_fault(moved(Type::HEXAHEDRON, 2, 7, {0.66, 0.66, 0.66}),
+                "element 0 (attribute 1, centre (0.");
+   // The quadratic map x + 4 h x (1 - x) turns back at an end of x from h = 1/4 on. All
+   // coefficients are of one sign up to there.
+   const auto bulged = [&](Type type, double h)
+   {
+      mfem::Mesh mesh = moved(type, 2, -1, {});
+      mesh.Transform(
+         [h](const mfem::Vector &x, mfem::Vector &y)
+         {
+            y = x;
+            y[0] += 4 * h * x[0] * (1 - x[0]);
+         });
+      return mesh;
+   };
+   for (const Type type : {Type::HEXAHEDRON, Type::WEDGE, Type::TETRAHEDRON})
+   {
+      expect_sound(bulged(type, 0.2499));
+      expect_fault(bulged(type, 0.2501), "is folded over");
+      expect_sound(bulged(type, -0.2499));
+      expect_fault(bulged(type, -0.2501), "is folded over");
+   }
+   // A determinant that is positive at all corners, and negative at the middle of an edge.
+   mfem::Mesh waist = moved(Type::HEXAHEDRON, 2, -1, {});
+   waist.Transform(
+      [](const mfem::Vector &x, mfem::Vector &y)
+      {
+         y = x;
+         const double w = 16 * x[1] * (1 - x[1]) * x[2] * (1 - x[2]);
+         y[0] = x[0] * (1 - 1.01 * w) + 0.505 * w;
+      });
+   expect_fault(std::move(waist), "is folded over");
+   mfem::Mesh mirrored = moved(Type::HEXAHEDRON, 1, -1, {}),
+              flat = moved(Type::WEDGE, 1, -1, {});
+   for (int v = 0; v < 8; ++v)
+   {
+      mirrored.GetVertex(v)[0] *= -1;
+      flat.GetVertex(v)[2] = 0;
+   }
+   expect_fault(std::move(mirrored), "is turned inside out");
+   expect_fault(std::move(flat), "has no volume");
+   // Two cubes of which the second lies within the first.
+   mfem::Mesh pair = mfem::Mesh::MakeCartesian3D(2, 1, 1, Type::HEXAHEDRON);
+   for (int v = 0; v < pair.GetNV(); ++v)
+   {
+      if (pair.GetVertex(v)[0] > 0.9) { pair.GetVertex(v)[0] = 0.1; }
+   }
+   expect_fault(std::move(pair), "is turned inside out");
+   expect_fault(mfem::Mesh::MakeCartesian3D(1, 1, 1, Type::PYRAMID), "is a pyramid");
 }
 
 /// MFEM leaves out coordinates that are the same for all nodes: there is no second one to
@@ -211,10 +281,11 @@ TEST(ElementCheck, AMeshWithoutThicknessIsSaidInOneSentence)
       {
          said = error.what();
       }
-      EXPECT_EQ(said,
-                "elastic body: the mesh is of dimension 2 in space of dimension 1, both must "
-                "be 2: all of its nodes lie on one line, its elements have no thickness; "
-                "nodes must differ in x and in y");
+      EXPECT_EQ(
+         said,
+         "elastic body: the mesh is of dimension 2 in space of dimension 1, both must "
+         "be 2, or both 3: all of its nodes lie on one line, its elements have no thickness; "
+         "nodes must differ in x and in y");
    }
 }
 

@@ -117,7 +117,8 @@ TEST(Statements, LoadsAreThoseOfTheCalls)
    refused("P push 3 1", "kind 'push' is not one of pressure, traction, body-force");
    refused("P pressure 3", "has 3 words, must be PATTERN pressure WHERE p");
    refused("P traction 3 1", "must be PATTERN traction WHERE tx ty");
-   refused("P pressure 3[0<z<1] 1", "'3[0<z<1]', must be names or boundary attributes");
+   refused("P pressure 3[0<z<1] 1", "axis of the interval is 2, must be 0 (x) or 1 (y)");
+   refused("P pressure 3[0<t<1] 1", "'3[0<t<1]', must be names or boundary attributes");
    refused("P pressure 3[0<x<1 1", "must be names or boundary attributes");
    refused("P pressure 3[a<x<1] 1", "'a' is not a number");
    refused("P=1 pressure 3 1", "must not hold =, a comma or a quote");

@@ -12,6 +12,7 @@ DofPlaces places_of(const ElasticBody &body)
    const int dofs = body.space().GetTrueVSize();
    DofPlaces places{Eigen::VectorXd::Zero(dofs), Eigen::VectorXd::Zero(dofs),
                     std::vector<int>(dofs, 0), body.formulation()};
+   if (x.Height() == 3) { places.z = Eigen::VectorXd::Zero(dofs); }
    for (int node = 0; node < x.Width(); ++node)
    {
       for (int c = 0; c < body.components(); ++c)
@@ -20,6 +21,7 @@ DofPlaces places_of(const ElasticBody &body)
          if (dof < 0) { continue; }
          places.x[dof] = x(0, node);
          places.y[dof] = x(1, node);
+         if (x.Height() == 3) { places.z[dof] = x(2, node); }
          places.component[dof] = c;
       }
    }

@@ -162,6 +162,8 @@ std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &
 ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
 {
    const std::string where = "contact line";
+   require(body.formulation() != Formulation::space,
+           "contact line: the body is in space, its contact is a surface (contact_surface)");
    mfem::FiniteElementSpace &space = body.space();
    mfem::Mesh &mesh = *space.GetMesh();
    const mfem::DenseMatrix &x = body.node_coordinates();

@@ -299,6 +299,8 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
                        const CondenseSettings &settings, const CondensedBody *alike)
 {
    settings.validate();
+   require(body.formulation() != Formulation::space,
+           "condense: the body is in space, must be condensed to a contact surface");
    const ContactDofs dofs = contact_dofs(body, line);
    const std::vector<int> contact = dofs.free();
    const BodySolver *other = alike ? alike->solver.get() : nullptr;
@@ -320,6 +322,19 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    }
    found.counters += body.counters();
    return in_local_frames(line, body.patterns(), dofs, std::move(found));
+}
+
+CondensedBody condense(const ElasticBody &body, const ContactSurface &surface,
+                       const CondensedBody *alike)
+{
+   require(body.formulation() == Formulation::space, "condense: the body is ",
+           name(body.formulation()), ", must be in space to have a contact surface");
+   const AssembledBody all = assembled(body);
+   const std::string gone = all.eliminated_warning();
+   require(gone.empty(), "condense: ", gone.substr(0, gone.find(": they are")), was_eliminated);
+   CondensedBody made = condense(all, surface, alike);
+   made.counters += body.counters();
+   return made;
 }
 
 } // namespace cattaneo

@@ -2,6 +2,7 @@
 
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/contact/boundary_line.hpp>
+#include <cattaneo/contact/boundary_surface.hpp>
 
 namespace cattaneo
 {
@@ -27,6 +28,9 @@ struct CondenseSettings
     errors. */
 CondensedBody condense(const ElasticBody &body, const ContactLine &line,
                        const CondenseSettings &settings = {},
+                       const CondensedBody *alike = nullptr);
+/// The same of a body in space, to the nodes of a surface.
+CondensedBody condense(const ElasticBody &body, const ContactSurface &surface,
                        const CondensedBody *alike = nullptr);
 
 } // namespace cattaneo

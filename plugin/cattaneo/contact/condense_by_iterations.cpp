@@ -59,7 +59,7 @@ FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &li
    const mfem::Array<int> essential = body.essential_dofs();
    const auto size = static_cast<int>(own.component.size());
    std::vector<double> supports;
-   const Eigen::AlignedBox2d box = body.box();
+   const Eigen::AlignedBox3d box = body.box();
    for (int dof : essential)
    {
       supports.insert(supports.end(),

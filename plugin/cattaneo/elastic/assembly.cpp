@@ -268,6 +268,63 @@ private:
    }
 };
 
+/// λ or μ of a material for each attribute, or of one that varies.
+class Lame : public mfem::Coefficient
+{
+public:
+   Lame(double (Material::*constant)() const, const std::vector<Material> *materials,
+        const VaryingMaterial *varying)
+      : constant_(constant), materials_(materials), varying_(varying)
+   {
+   }
+   double Eval(mfem::ElementTransformation &at, const mfem::IntegrationPoint &point) override
+   {
+      if (!varying_) { return ((*materials_)[at.Attribute - 1].*constant_)(); }
+      at.SetIntPoint(&point);
+      return (varying_->at(at).*constant_)();
+   }
+
+private:
+   double (Material::*constant_)() const;
+   const std::vector<Material> *materials_;
+   const VaryingMaterial *varying_;
+};
+
+/// MFEM's integrator, at the points of stiffness_rule().
+class SolidIntegrator : public mfem::ElasticityIntegrator
+{
+public:
+   SolidIntegrator(mfem::Coefficient &lambda, mfem::Coefficient &mu, bool varying)
+      : mfem::ElasticityIntegrator(lambda, mu), varying_(varying)
+   {
+   }
+   void AssembleElementMatrix(const mfem::FiniteElement &element,
+                              mfem::ElementTransformation &at,
+                              mfem::DenseMatrix &matrix) override
+   {
+      const auto &transformation = dynamic_cast<const mfem::IsoparametricTransformation &>(at);
+      SetIntRule(&stiffness_rule(element, transformation, Formulation::space, varying_));
+      mfem::ElasticityIntegrator::AssembleElementMatrix(element, at, matrix);
+   }
+
+private:
+   bool varying_;
+};
+
+/// In space MFEM assembles.
+std::unique_ptr<mfem::SparseMatrix> assembled_by_mfem(const mfem::FiniteElementSpace &space,
+                                                      const std::vector<Material> *materials,
+                                                      const VaryingMaterial *varying)
+{
+   Lame lambda(&Material::lambda, materials, varying), mu(&Material::mu, materials, varying);
+   // A form does not change its space, and asks for one that may be changed.
+   mfem::BilinearForm form(const_cast<mfem::FiniteElementSpace *>(&space));
+   form.AddDomainIntegrator(new SolidIntegrator(lambda, mu, varying != nullptr));
+   form.Assemble();
+   form.Finalize();
+   return std::unique_ptr<mfem::SparseMatrix>(form.LoseMat());
+}
+
 std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &space,
                                               Elements elements, Formulation formulation)
 {
@@ -337,7 +394,7 @@ stiffness_rule(const mfem::FiniteElement &element,
    // parallel sides the rule is exact for it. On other quads it is exact for one gradient times
    // that power.
    const int order =
-      formulation == Formulation::plane
+      !about_axis(formulation)
          ? 2 * transformation.OrderGrad(&element)
          : 2 * element.GetOrder() +
               (formulation == Formulation::torsion ? 4 : 2) * transformation.Order();
@@ -350,6 +407,10 @@ std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElement
                                                        const std::vector<Material> &materials,
                                                        Formulation formulation)
 {
+   if (formulation == Formulation::space)
+   {
+      return assembled_by_mfem(space, &materials, nullptr);
+   }
    return assembled(space, {space, &materials, nullptr, formulation}, formulation);
 }
 
@@ -357,6 +418,10 @@ std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElement
                                                        const VaryingMaterial &material,
                                                        Formulation formulation)
 {
+   if (formulation == Formulation::space)
+   {
+      return assembled_by_mfem(space, nullptr, &material);
+   }
    return assembled(space, {space, nullptr, &material, formulation}, formulation);
 }
 

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/elastic/assembly.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
+#include <cattaneo/elastic/boundary_face.hpp>
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/element_check.hpp>
@@ -22,7 +24,33 @@ void check_mesh(mfem::Mesh &mesh)
    require(Ranks(mesh).any(mesh.GetNE() > 0), "elastic body: the mesh has no elements");
    require(Ranks(mesh).size() == 1 || !mesh.ncmesh,
            "elastic body: the mesh is distributed and nonconforming, must be conforming");
+   require(mesh.Dimension() != 3 || Ranks(mesh).size() == 1,
+           "elastic body: the mesh is in space and distributed, in space a body must be on one "
+           "rank");
+   require(mesh.Dimension() != 3 || !mesh.Nonconforming(),
+           "elastic body: the mesh is in space and nonconforming, must be conforming");
    check_elements(mesh);
+}
+
+/// A mesh in space makes a body in space. InputError if the formulation is of another
+/// dimension.
+Formulation of_mesh(const mfem::Mesh &mesh, Formulation asked)
+{
+   const bool space = mesh.Dimension() == 3;
+   require(space || asked != Formulation::space,
+           "elastic body: the formulation is in space, the mesh is of dimension ",
+           mesh.Dimension(), ", must be 3");
+   require(!space || !about_axis(asked), "elastic body: the formulation is ", name(asked),
+           ", the mesh is in space: it must be of the plane (r, z)");
+   return space ? Formulation::space : asked;
+}
+
+/// InputError for plane stress where there is no plane.
+void check_state(PlaneState state, Formulation formulation)
+{
+   require(formulation == Formulation::plane || state == PlaneState::strain,
+           "elastic body: a material is in plane stress, which a body ",
+           formulation == Formulation::space ? "in space" : "of revolution", " is not");
 }
 
 /// Largest element attribute of the mesh, 1 if it has no elements (on this rank).
@@ -66,15 +94,14 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
    : formulation_(formulation), materials_(materials)
 {
    check_mesh(mesh);
+   formulation_ = of_mesh(mesh, formulation);
    require_at_least("elastic body: element order", order, 1);
    ranks_ = Ranks(mesh);
    require(!materials_.empty(), "elastic body: there is no material, must be at least one");
    for (const Material &material : materials_)
    {
       material.validate();
-      require(formulation == Formulation::plane || material.state == PlaneState::strain,
-              "elastic body: a material is in plane stress, but the body is axisymmetric: use "
-              "plane strain");
+      check_state(material.state, formulation_);
    }
    for (int attribute : mesh.attributes)
    {
@@ -96,18 +123,17 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, Field young, Field poisson
      varying_(VaryingMaterial{std::move(young), std::move(poisson), state})
 {
    check_mesh(mesh);
+   formulation_ = of_mesh(mesh, formulation);
    require_at_least("elastic body: element order", order, 1);
    ranks_ = Ranks(mesh);
-   require(formulation == Formulation::plane || state == PlaneState::strain,
-           "elastic body: the material is in plane stress, but the body is axisymmetric: use "
-           "plane strain");
+   check_state(state, formulation_);
    make_space(mesh, order);
    assemble();
 }
 
 void ElasticBody::make_space(mfem::Mesh &mesh, int order)
 {
-   owned_collection_ = std::make_unique<mfem::H1_FECollection>(order, 2);
+   owned_collection_ = std::make_unique<mfem::H1_FECollection>(order, mesh.Dimension());
 #ifdef MFEM_USE_MPI
    if (ranks_.distributed())
    {
@@ -147,6 +173,7 @@ ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatr
    : space_(&space), formulation_(formulation)
 {
    check_mesh(*space.GetMesh());
+   formulation_ = of_mesh(*space.GetMesh(), formulation);
    require(Ranks(*space.GetMesh()).size() == 1,
            "elastic body: the mesh is distributed, your operator on it must be a "
            "HypreParMatrix");
@@ -169,6 +196,7 @@ ElasticBody::ElasticBody(mfem::ParFiniteElementSpace &space,
    : space_(&space), formulation_(formulation)
 {
    check_mesh(*space.GetMesh());
+   formulation_ = of_mesh(*space.GetMesh(), formulation);
    ranks_ = Ranks(*space.GetMesh());
    check_space();
    const int size = space.GetTrueVSize();
@@ -228,14 +256,15 @@ void ElasticBody::adopt_space()
    }
    essential_.assign(space.GetTrueVSize(), false);
 
-   coordinates_.SetSize(2, space.GetNDofs());
+   const int dimension = mesh.Dimension();
+   coordinates_.SetSize(dimension, space.GetNDofs());
    mfem::Array<int> dofs;
    mfem::DenseMatrix points;
    mfem::IsoparametricTransformation transformation;
    const bool vertices = !mesh.GetNodes() && space.GetNDofs() == mesh.GetNV();
    for (int v = 0; vertices && v < mesh.GetNV(); ++v)
    {
-      for (int c = 0; c < 2; ++c) { coordinates_(c, v) = mesh.GetVertex(v)[c]; }
+      for (int c = 0; c < dimension; ++c) { coordinates_(c, v) = mesh.GetVertex(v)[c]; }
    }
    for (int e = 0; !vertices && e < mesh.GetNE(); ++e)
    {
@@ -244,21 +273,20 @@ void ElasticBody::adopt_space()
       transformation.Transform(space.GetFE(e)->GetNodes(), points);
       for (int i = 0; i < dofs.Size(); ++i)
       {
-         for (int c = 0; c < 2; ++c) { coordinates_(c, dofs[i]) = points(c, i); }
+         for (int c = 0; c < dimension; ++c) { coordinates_(c, dofs[i]) = points(c, i); }
       }
    }
    for (int node = 0; node < space.GetNDofs(); ++node)
    {
-      require(std::isfinite(coordinates_(0, node)) && std::isfinite(coordinates_(1, node)),
-              "elastic body: node ", node, " of the mesh is at (", coordinates_(0, node), ", ",
-              coordinates_(1, node), "), must be finite");
+      require(place(node).allFinite(), "elastic body: node ", node, " of the mesh is at ",
+              place_text(place(node), formulation_), ", must be finite");
    }
    hold_axis();
 }
 
 void ElasticBody::hold_axis()
 {
-   if (formulation_ == Formulation::plane) { return; }
+   if (!about_axis(formulation_)) { return; }
    // A node is on the axis if its radius is round-off of the largest coordinate.
    for (int node = 0; node < space_->GetNDofs(); ++node)
    {
@@ -281,28 +309,34 @@ void ElasticBody::hold_axis()
    }
 }
 
-Eigen::AlignedBox2d ElasticBody::box() const
+Eigen::AlignedBox3d ElasticBody::box() const
 {
-   const Eigen::Map<const Eigen::Matrix2Xd> nodes(coordinates_.GetData(), 2,
-                                                  coordinates_.Width());
+   Eigen::AlignedBox3d here;
+   for (int node = 0; node < coordinates_.Width(); ++node) { here.extend(place(node)); }
    const double none = -std::numeric_limits<double>::infinity();
-   Eigen::Vector4d sides(none, none, none, none); // -low, high
-   if (nodes.cols() > 0) { sides << -nodes.rowwise().minCoeff(), nodes.rowwise().maxCoeff(); }
+   Eigen::Matrix<double, 6, 1> sides = Eigen::Matrix<double, 6, 1>::Constant(none);
+   if (!here.isEmpty()) { sides << -here.min(), here.max(); } // -low, high
    for (double &side : sides) { side = ranks_.max(side); }
-   return {-sides.head(2), sides.tail(2)};
+   return {-sides.head<3>(), sides.tail<3>()};
+}
+
+Eigen::Vector3d ElasticBody::place(int scalar_dof) const
+{
+   return {coordinates_(0, scalar_dof), coordinates_(1, scalar_dof),
+           coordinates_.Height() == 3 ? coordinates_(2, scalar_dof) : 0.0};
 }
 
 bool ElasticBody::on_axis(int scalar_dof) const
 {
-   return formulation_ != Formulation::plane &&
-          std::abs(coordinates_(0, scalar_dof)) <= axis_radius_;
+   return about_axis(formulation_) && std::abs(coordinates_(0, scalar_dof)) <= axis_radius_;
 }
 
 void ElasticBody::check_component(const std::string &where, int component) const
 {
    require(component >= 0 && component < components(), where, ": component is ", component,
            ", must be ",
-           formulation_ == Formulation::plane          ? "0 (x) or 1 (y)"
+           formulation_ == Formulation::space          ? "0 (x), 1 (y) or 2 (z)"
+           : formulation_ == Formulation::plane        ? "0 (x) or 1 (y)"
            : formulation_ == Formulation::axisymmetric ? "0 (r) or 1 (z)"
                                                        : "0 (twist)");
 }
@@ -333,11 +367,12 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
    mfem::Mesh &mesh = *space_->GetMesh();
    std::vector<int> nodes;
    mfem::Array<int> dofs;
+   const bool space = formulation_ == Formulation::space;
    bool turns = true; // does any of the part lie off the axis?
    for (int i : boundary_elements(mesh, part, where))
    {
-      BoundaryEdge edge(mesh, i);
-      const double slack = interval_tolerance * edge.size();
+      const double slack = interval_tolerance * (space ? BoundaryFace(mesh, i).size()
+                                                       : BoundaryEdge(mesh, i).size());
       space_->GetBdrElementDofs(i, dofs);
       // u_θ = r ψ vanishes there by itself; the angle ψ does not.
       if (formulation_ == Formulation::torsion &&
@@ -389,15 +424,30 @@ void ElasticBody::fix(const BoundaryPart &part, int component)
 
 void ElasticBody::fix_node(double x, double y, int component)
 {
+   require(formulation_ != Formulation::space,
+           "fix node: two coordinates are given, the body is in space, there must be three");
+   fix_node_at({x, y, 0}, component);
+}
+
+void ElasticBody::fix_node(double x, double y, double z, int component)
+{
+   require(formulation_ == Formulation::space,
+           "fix node: three coordinates are given, the body is ", name(formulation_),
+           ", there must be two");
+   fix_node_at({x, y, z}, component);
+}
+
+void ElasticBody::fix_node_at(const Eigen::Vector3d &point, int component)
+{
    check_component("fix node", component);
-   require(std::isfinite(x) && std::isfinite(y), "fix node: the point is (", x, ", ", y,
-           "), must be finite");
+   require(point.allFinite(), "fix node: the point is ", place_text(point, formulation_),
+           ", must be finite");
    int nearest = -1;
    double distance = std::numeric_limits<double>::infinity();
    for (int node = 0; node < coordinates_.Width(); ++node)
    {
       if (true_dof(node, component) < 0) { continue; }
-      const double d = std::hypot(coordinates_(0, node) - x, coordinates_(1, node) - y);
+      const double d = (place(node) - point).norm();
       if (d < distance)
       {
          distance = d;

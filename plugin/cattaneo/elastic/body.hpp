@@ -39,6 +39,9 @@ using StressLaw =
     prescribed values are angles, and the forces of a pattern are torques. The two decouple, so
     a body that twists is an axisymmetric and a torsion body. With both, r < 0 is an InputError.
 
+    Space: components 0 = x, 1 = y, 2 = z. A mesh of dimension 3 makes a body in space; its
+    formulation need not be named. Hexahedra, tetrahedra and wedges, conforming, on one rank.
+
     Everything that is named by a BoundaryPart throws InputError if the attribute does not exist
     or nothing lies in the interval.
 
@@ -47,9 +50,9 @@ using StressLaw =
 class ElasticBody
 {
 public:
-   /// Assembles the isotropic operator on elements of the given order (>= 1). The mesh must be
-   /// 2D and must outlive the body; straight, curved and nonconforming (not if distributed)
-   /// meshes of quads and triangles.
+   /// Assembles the isotropic operator on elements of the given order (>= 1). The mesh must
+   /// outlive the body: straight, curved and nonconforming (not if distributed) meshes of quads
+   /// and triangles, or solids as above.
    ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
                Formulation formulation = Formulation::plane);
 
@@ -57,17 +60,17 @@ public:
    ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials,
                Formulation formulation = Formulation::plane);
 
-   /// Young's modulus and Poisson's ratio that vary: numbers, functions of (x, y) or
-   /// coefficients of MFEM, which must outlive the body. They must be in the ranges of Material
-   /// (InputError that names the point).
+   /// Young's modulus and Poisson's ratio that vary: numbers, functions of (x, y), in space of
+   /// (x, y, z), or coefficients of MFEM, which must outlive the body. They must be in the
+   /// ranges of Material (InputError that names the point).
    ElasticBody(mfem::Mesh &mesh, int order, Field young, Field poisson,
                Formulation formulation = Formulation::plane,
                PlaneState state = PlaneState::strain);
 
    /// The user's own symmetric operator on the true dofs of an H1 space of 2 components, in
-   /// torsion 1 (orthotropic, user integrators, …). Copies the matrix; the space must outlive
-   /// the body. Nothing is eliminated from the matrix: condense() refuses to displace dofs
-   /// whose rows have only a diagonal.
+   /// torsion 1, in space 3 (orthotropic, user integrators, …). Copies the matrix; the space
+   /// must outlive the body. Nothing is eliminated from the matrix: condense() refuses to
+   /// displace dofs whose rows have only a diagonal.
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
                Formulation formulation = Formulation::plane);
 
@@ -81,6 +84,8 @@ public:
    void fix(const BoundaryPart &part, int component);
    /// No displacement of this component at the node of the space nearest to (x, y).
    void fix_node(double x, double y, int component);
+   /// The same of a body in space, nearest to (x, y, z).
+   void fix_node(double x, double y, double z, int component);
    /// No displacement at these true dofs of the space (of this rank), as
    /// mfem::FiniteElementSpace::GetEssentialTrueDofs lists them. InputError for a number that
    /// is no true dof or is listed twice, as in a boundary marker (use fix(marker, component)
@@ -100,10 +105,10 @@ public:
        coefficient must outlive the body. InputError for a user's operator and for torsion. */
    void add_initial_strain(const std::string &pattern, const Field &strain);
    /// The same for a tensor {xx, yy, xy, zz} (in axisymmetry {rr, zz, rz, θθ}), xy half of the
-   /// angle, the last out of the plane.
+   /// angle, the last out of the plane. InputError in space.
    void add_initial_strain(const std::string &pattern, const std::array<Field, 4> &strain);
-   /// The same for any symmetric 3 × 3 tensor, in the order x, y and out of the plane (r, z and
-   /// θ in axisymmetry); without shear out of the plane (InputError).
+   /// The same for any symmetric 3 × 3 tensor, in the order x, y and z, or out of the plane (r,
+   /// z and θ in axisymmetry); except in space without shear out of the plane (InputError).
    void add_initial_strain(const std::string &pattern, mfem::MatrixCoefficient &strain);
 
    /// Pressure on a boundary part (positive pushes into the body), force per area.
@@ -111,11 +116,14 @@ public:
    /// Traction (t_x, t_y) on a boundary part, force per area.
    void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &tx,
                      const Field &ty);
+   /// Traction (t_x, t_y, t_z) on a boundary part of a body in space, force per area.
+   void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &tx,
+                     const Field &ty, const Field &tz);
    /// A boundary part on which loads act, cut at the ends of its interval.
    struct Extent
    {
-      double size = 0;              ///< its length; about an axis its area
-      Eigen::Vector2d middle{0, 0}; ///< mean place of its points, (r, z) about an axis
+      double size = 0;                 ///< its length; about an axis and in space its area
+      Eigen::Vector3d middle{0, 0, 0}; ///< mean place of its points, (r, z, 0) about an axis
    };
    /// InputError if the mesh has no such part; of size 0 if an interval leaves nothing of it.
    /// @param called what the part is called in an error
@@ -124,6 +132,9 @@ public:
    void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &t);
    /// Body force (b_x, b_y), force per volume.
    void add_body_force(const std::string &pattern, const Field &bx, const Field &by);
+   /// Body force (b_x, b_y, b_z) of a body in space, force per volume.
+   void add_body_force(const std::string &pattern, const Field &bx, const Field &by,
+                       const Field &bz);
    /// Prescribed displacement of one component on the nodes of a boundary part. A pattern is
    /// either force- or displacement-controlled (InputError if mixed); a node's displacement may
    /// be prescribed by several patterns (they add) and need not be fixed as well. Within one
@@ -147,9 +158,9 @@ public:
    /// operator. InputError for torsion.
    void set_stress(StressLaw law);
 
-   /// Plane, axisymmetric or torsion.
+   /// Plane, axisymmetric, torsion or space.
    Formulation formulation() const { return formulation_; }
-   /// Unknowns of each node: 2, in torsion 1.
+   /// Unknowns of each node: 2, in torsion 1, in space 3.
    int components() const { return cattaneo::components(formulation_); }
    /// The space of its displacements, the user's own or made of the order.
    mfem::FiniteElementSpace &space() const { return *space_; }
@@ -190,10 +201,12 @@ public:
    int global_dof(int scalar_dof, int component) const;
    /// First of the global numbers of this rank's true dofs.
    int first_global_dof() const { return first_global_dof_; }
-   /// Coordinates of every scalar node, size 2 × nodes.
+   /// Coordinates of every scalar node, size 2 × nodes, in space 3 × nodes.
    const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
-   /// The box around all nodes, of all ranks.
-   Eigen::AlignedBox2d box() const;
+   /// The place of a scalar node; z is 0 but in space.
+   Eigen::Vector3d place(int scalar_dof) const;
+   /// The box around all nodes, of all ranks; z is 0 but in space.
+   Eigen::AlignedBox3d box() const;
    /// True if a scalar node lies on the axis of revolution; always false in the plane.
    bool on_axis(int scalar_dof) const;
 
@@ -207,6 +220,9 @@ private:
    void assemble();
    void hold_axis();
    void check_component(const std::string &where, int component) const;
+   void fix_node_at(const Eigen::Vector3d &point, int component);
+   /// InputError unless a load of that many components is one for this body.
+   void check_given(const std::string &where, int given) const;
    BodyLoad &load(const std::string &name, Control control);
    void add_to_pattern(const std::string &name, const mfem::Vector &local_forces);
    using StrainField = std::function<Strain(mfem::ElementTransformation &)>;
@@ -219,6 +235,10 @@ private:
    template <class Density>
    void add_boundary_load(const std::string &pattern, const BoundaryPart &part,
                           const char *what, Density density);
+   template <class Density>
+   void add_face_load(const std::string &pattern, const BoundaryPart &part, const char *what,
+                      Density density);
+   void add_body_force(const std::string &pattern, const std::vector<const Field *> &force);
    std::vector<int> nodes_on(const BoundaryPart &part, const std::string &where) const;
 
    std::unique_ptr<mfem::FiniteElementCollection> owned_collection_;

@@ -1,6 +1,8 @@
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/elastic/assembly.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
+#include <cattaneo/elastic/boundary_face.hpp>
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -125,13 +127,72 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
    add_to_pattern(pattern, forces);
 }
 
+template <class Density>
+void ElasticBody::add_face_load(const std::string &pattern, const BoundaryPart &part,
+                                const char *what, Density density)
+{
+   const std::string where = std::string(what) + " '" + pattern + "'";
+   load(pattern, Control::force);
+   mfem::Mesh &mesh = *space_->GetMesh();
+   mfem::Vector forces(space_->GetVSize()), shape;
+   forces = 0.0;
+   mfem::Array<int> dofs;
+   bool anything = false;
+   for (int i : boundary_elements(mesh, part, where))
+   {
+      BoundaryFace face(mesh, i);
+      if (!face.within(part, where)) { continue; }
+      anything = true;
+      const mfem::FiniteElement &element = *space_->GetBE(i);
+      shape.SetSize(element.GetDof());
+      space_->GetBdrElementDofs(i, dofs);
+      const mfem::IntegrationRule &rule = face.rule(element.GetOrder());
+      for (int k = 0; k < rule.GetNPoints(); ++k)
+      {
+         const mfem::IntegrationPoint &point = rule.IntPoint(k);
+         // Force per area of the reference face.
+         const Eigen::Vector3d force = density(face, point, where);
+         element.CalcShape(point, shape);
+         for (int a = 0; a < dofs.Size(); ++a)
+         {
+            for (int c = 0; c < 3; ++c)
+            {
+               forces(space_->DofToVDof(dofs[a], c)) += point.weight * shape(a) * force[c];
+            }
+         }
+      }
+   }
+   require(anything, where, ": no boundary elements lie on the ", describe(part));
+   add_to_pattern(pattern, forces);
+}
+
+void ElasticBody::check_given(const std::string &where, int given) const
+{
+   require(components() == given, where, ": ", given, " components are given, the body is ",
+           name(formulation_), ", must be ", components());
+}
+
 ElasticBody::Extent ElasticBody::extent(const BoundaryPart &part,
                                         const std::string &called) const
 {
    mfem::Mesh &mesh = *space_->GetMesh();
-   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, 1);
+   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(4, 1);
    for (int i : boundary_elements(mesh, part, called))
    {
+      if (formulation_ == Formulation::space)
+      {
+         BoundaryFace face(mesh, i);
+         if (!face.within(part, called)) { continue; }
+         const mfem::IntegrationRule &rule = face.rule(space_->GetBE(i)->GetOrder());
+         for (int k = 0; k < rule.GetNPoints(); ++k)
+         {
+            const mfem::IntegrationPoint &point = rule.IntPoint(k);
+            const Eigen::Vector3d x = face.place(point);
+            sum +=
+               point.weight * face.inward(point).norm() * Eigen::Vector4d(1, x[0], x[1], x[2]);
+         }
+         continue;
+      }
       BoundaryEdge edge(mesh, i);
       const mfem::IntegrationRule &rule = edge.rule(space_->GetBE(i)->GetOrder());
       for (const auto &[from, to] : edge.pieces(part))
@@ -141,20 +202,28 @@ ElasticBody::Extent ElasticBody::extent(const BoundaryPart &part,
             const double s = from + (to - from) * rule.IntPoint(k).x;
             const Eigen::Vector2d x = edge.point(s);
             sum += (to - from) * rule.IntPoint(k).weight * edge.derivative(s).norm() *
-                   measure(formulation_, x[0]) * Eigen::Vector3d(1, x[0], x[1]);
+                   measure(formulation_, x[0]) * Eigen::Vector4d(1, x[0], x[1], 0);
          }
       }
    }
    ranks_.sum(sum);
    const double size = sum(0, 0);
    if (!(size > 0)) { return {}; }
-   return {size, Eigen::Vector2d(sum(1, 0), sum(2, 0)) / size};
+   return {size, Eigen::Vector3d(sum(1, 0), sum(2, 0), sum(3, 0)) / size};
 }
 
 void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &part,
                                const Field &p)
 {
    check_component("pressure '" + pattern + "'", 1);
+   if (formulation_ == Formulation::space)
+   {
+      add_face_load(pattern, part, "pressure",
+                    [&p](BoundaryFace &face, const mfem::IntegrationPoint &point,
+                         const std::string &where) -> Eigen::Vector3d
+                    { return p.at(face.at(point), where) * face.inward(point); });
+      return;
+   }
    add_boundary_load(pattern, part, "pressure",
                      [&p](BoundaryEdge &edge, double s, const std::string &where)
                      {
@@ -171,6 +240,7 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
                                const Field &tx, const Field &ty)
 {
    check_component("traction '" + pattern + "'", 1);
+   check_given("traction '" + pattern + "'", 2);
    add_boundary_load(pattern, part, "traction",
                      [&tx, &ty](BoundaryEdge &edge, double s, const std::string &where)
                      {
@@ -179,6 +249,21 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
                         return Eigen::Vector2d(ds * tx.at(place, where),
                                                ds * ty.at(place, where));
                      });
+}
+
+void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
+                               const Field &tx, const Field &ty, const Field &tz)
+{
+   check_given("traction '" + pattern + "'", 3);
+   add_face_load(pattern, part, "traction",
+                 [&](BoundaryFace &face, const mfem::IntegrationPoint &point,
+                     const std::string &where) -> Eigen::Vector3d
+                 {
+                    const double area = face.inward(point).norm();
+                    mfem::ElementTransformation &place = face.at(point);
+                    return area * Eigen::Vector3d(tx.at(place, where), ty.at(place, where),
+                                                  tz.at(place, where));
+                 });
 }
 
 void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
@@ -198,7 +283,7 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
 /// The virtual work of the displacement φ of component c at a point: force[c] φ + flux[c] · ∇φ.
 struct ElasticBody::PointLoad
 {
-   double force[2], flux[2][2];
+   double force[3], flux[3][3];
 };
 
 template <class Density>
@@ -207,7 +292,8 @@ void ElasticBody::add_volume_load(const std::string &pattern, bool at_points_of_
 {
    load(pattern, Control::force);
    mfem::Mesh &mesh = *space_->GetMesh();
-   mfem::Vector forces(space_->GetVSize()), shape, x(2);
+   const int dimension = mesh.Dimension();
+   mfem::Vector forces(space_->GetVSize()), shape, x(dimension);
    mfem::DenseMatrix gradient;
    forces = 0.0;
    mfem::Array<int> dofs;
@@ -216,7 +302,7 @@ void ElasticBody::add_volume_load(const std::string &pattern, bool at_points_of_
    {
       const mfem::FiniteElement &element = *space_->GetFE(e);
       shape.SetSize(element.GetDof());
-      gradient.SetSize(element.GetDof(), 2);
+      gradient.SetSize(element.GetDof(), dimension);
       space_->GetElementDofs(e, dofs);
       mesh.GetElementTransformation(e, &transformation);
       const mfem::IntegrationRule &rule =
@@ -236,11 +322,11 @@ void ElasticBody::add_volume_load(const std::string &pattern, bool at_points_of_
          const PointLoad here = density(transformation, x(0));
          for (int a = 0; a < dofs.Size(); ++a)
          {
-            for (int c = 0; c < 2; ++c)
+            for (int c = 0; c < dimension; ++c)
             {
-               forces(space_->DofToVDof(dofs[a], c)) +=
-                  weight * (here.force[c] * shape(a) + here.flux[c][0] * gradient(a, 0) +
-                            here.flux[c][1] * gradient(a, 1));
+               double work = here.force[c] * shape(a);
+               for (int d = 0; d < dimension; ++d) { work += here.flux[c][d] * gradient(a, d); }
+               forces(space_->DofToVDof(dofs[a], c)) += weight * work;
             }
          }
       }
@@ -250,11 +336,30 @@ void ElasticBody::add_volume_load(const std::string &pattern, bool at_points_of_
 
 void ElasticBody::add_body_force(const std::string &pattern, const Field &bx, const Field &by)
 {
+   add_body_force(pattern, std::vector<const Field *>{&bx, &by});
+}
+
+void ElasticBody::add_body_force(const std::string &pattern, const Field &bx, const Field &by,
+                                 const Field &bz)
+{
+   add_body_force(pattern, std::vector<const Field *>{&bx, &by, &bz});
+}
+
+void ElasticBody::add_body_force(const std::string &pattern,
+                                 const std::vector<const Field *> &force)
+{
    const std::string where = "body force '" + pattern + "'";
    check_component(where, 1);
+   check_given(where, static_cast<int>(force.size()));
    add_volume_load(pattern, false,
-                   [&](mfem::ElementTransformation &place, double) -> PointLoad {
-                      return {{bx.at(place, where), by.at(place, where)}, {}};
+                   [&](mfem::ElementTransformation &place, double)
+                   {
+                      PointLoad here{};
+                      for (std::size_t c = 0; c < force.size(); ++c)
+                      {
+                         here.force[c] = force[c]->at(place, where);
+                      }
+                      return here;
                    });
 }
 
@@ -265,7 +370,7 @@ void ElasticBody::add_initial_strain(const std::string &pattern, const Field &st
                     [strain, where](mfem::ElementTransformation &place)
                     {
                        const double e = strain.at(place, where);
-                       return Strain{e, e, e, 0};
+                       return Strain{e, e, e};
                     });
 }
 
@@ -273,6 +378,9 @@ void ElasticBody::add_initial_strain(const std::string &pattern,
                                      const std::array<Field, 4> &strain)
 {
    const std::string where = "initial strain '" + pattern + "'";
+   require(formulation_ != Formulation::space, where,
+           ": four components are given, the body is in space, must be a 3×3 matrix or one "
+           "number");
    add_strain_field(pattern,
                     [strain, where](mfem::ElementTransformation &place)
                     {
@@ -290,35 +398,40 @@ void ElasticBody::add_initial_strain(const std::string &pattern,
            strain.GetHeight(), "×", strain.GetWidth(), ", must be 3×3");
    add_strain_field(
       pattern,
-      [&strain, where](mfem::ElementTransformation &place)
+      [&strain, where, formulation = formulation_](mfem::ElementTransformation &place)
       {
+         const bool space = formulation == Formulation::space;
          mfem::DenseMatrix e(3);
          strain.Eval(e, place, place.GetIntPoint());
-         const bool sound = e(0, 1) == e(1, 0) && e(0, 2) == 0 && e(2, 0) == 0 &&
-                            e(1, 2) == 0 && e(2, 1) == 0 && std::isfinite(e.FNorm());
-         mfem::Vector x(2);
+         const bool symmetric = e(0, 1) == e(1, 0) && e(0, 2) == e(2, 0) && e(1, 2) == e(2, 1),
+                    sound = symmetric && std::isfinite(e.FNorm()) &&
+                            (space || (e(0, 2) == 0 && e(1, 2) == 0));
+         mfem::Vector x(3);
+         x = 0.0;
          if (!sound) { place.Transform(place.GetIntPoint(), x); }
-         require(sound, where, ": the matrix at (", x(0), ", ", x(1),
-                 ") must be finite, symmetric and without shear out of the plane");
-         return Strain{e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1)};
+         require(sound, where, ": the matrix at ",
+                 place_text({x(0), x(1), space ? x(2) : 0.0}, formulation),
+                 space ? " must be finite and symmetric"
+                       : " must be finite, symmetric and without shear out of the plane");
+         return Strain{e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1), 2 * e(1, 2), 2 * e(0, 2)};
       });
 }
 
 void ElasticBody::add_strain_field(const std::string &pattern, StrainField strain)
 {
    require(
-      has_material() && components() == 2, "initial strain '", pattern, "': the body ",
+      has_material() && components() > 1, "initial strain '", pattern, "': the body ",
       has_material() ? "is of torsion" : "has a stiffness that was given as a matrix",
-      ", must be plane or axisymmetric and have a material (else use add_forces for the forces "
-      "of a strain, and set_stress for its stresses)");
-   add_volume_load(pattern, true,
-                   [&](mfem::ElementTransformation &place, double r) -> PointLoad
-                   {
-                      const Stress s = stress(material(place), strain(place));
-                      const double hoop =
-                         formulation_ == Formulation::axisymmetric ? s.zz / r : 0.0;
-                      return {{hoop, 0}, {{s.xx, s.xy}, {s.xy, s.yy}}};
-                   });
+      ", must be plane, axisymmetric or in space and have a material (else use add_forces for "
+      "the forces of a strain, and set_stress for its stresses)");
+   add_volume_load(
+      pattern, true,
+      [&](mfem::ElementTransformation &place, double r) -> PointLoad
+      {
+         const Stress s = stress(material(place), strain(place));
+         const double hoop = formulation_ == Formulation::axisymmetric ? s.zz / r : 0.0;
+         return {{hoop, 0, 0}, {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}};
+      });
    initial_strains_.push_back({pattern, std::move(strain)});
 }
 
@@ -338,8 +451,8 @@ Strain ElasticBody::initial_strain(mfem::ElementTransformation &at,
 
 void ElasticBody::set_stress(StressLaw law)
 {
-   require(components() == 2,
-           "set stress: the body is one of torsion, must be plane or axisymmetric");
+   require(components() > 1,
+           "set stress: the body is one of torsion, must be plane, axisymmetric or in space");
    stress_law_ = std::move(law);
 }
 
@@ -351,18 +464,17 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
    while (patterns_[k].name != pattern) { ++k; }
    const int dof = true_dof(node, component);
    if (dof < 0) { return; }
-   const Eigen::Vector2d place(coordinates_(0, node), coordinates_(1, node));
-   require(std::isfinite(value), where, ": the value at ", place, " is ", value,
+   const std::string at = place_text(place(node), formulation_);
+   require(std::isfinite(value), where, ": the value at ", at, " is ", value,
            ", must be finite");
    require(value == 0 || formulation_ != Formulation::axisymmetric || component != 0 ||
               !on_axis(node),
-           where, ": component r at ", place, " is to be ", value,
-           ", must be zero on the axis");
+           where, ": component r at ", at, " is to be ", value, ", must be zero on the axis");
    const double other = values(dof);
    require(
       !prescribed_[k][dof] ||
          std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
-      where, ": component ", component, " at ", place, " is to be ", value,
+      where, ": component ", component, " at ", at, " is to be ", value,
       ", and was already prescribed as ", other,
       " by the same pattern: its parts must agree where they meet, or one must end before");
    values(dof) = value;
@@ -371,8 +483,9 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
 
 void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
 {
-   require(components() == 2,
-           "guide: the body is one of torsion, must be plane or axisymmetric");
+   require(components() == 2, "guide: the body is ",
+           components() == 1 ? "one of torsion" : "in space",
+           ", must be plane or axisymmetric");
    const std::vector<int> nodes = nodes_on(part, "guide");
    constexpr double far = std::numeric_limits<double>::max();
    std::array<double, 2> low{far, far}, high{-far, -far};
@@ -459,7 +572,8 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
    load(pattern, Control::displacement);
    for (int node : nodes)
    {
-      prescribe(pattern, node, component, u(coordinates_(0, node), coordinates_(1, node)));
+      const Eigen::Vector3d x = place(node);
+      prescribe(pattern, node, component, u(x[0], x[1], x[2]));
    }
 }
 

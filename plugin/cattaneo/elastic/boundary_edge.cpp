@@ -111,10 +111,10 @@ std::string describe(const BoundaryPart &part)
    std::ostringstream text;
    text << "boundary part with attribute" << (attributes.size() > 1 ? "s " : " ")
         << listed(attributes);
-   const char *name = part.axis == 0 ? "x" : "y";
+   const char *names[] = {"x", "y", "z"};
    if (std::isfinite(part.lo) || std::isfinite(part.hi))
    {
-      text << " and " << part.lo << " <= " << name << " <= " << part.hi;
+      text << " and " << part.lo << " <= " << names[part.axis] << " <= " << part.hi;
    }
    return text.str();
 }
@@ -122,8 +122,9 @@ std::string describe(const BoundaryPart &part)
 std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &part,
                                    const std::string &where)
 {
-   require(part.axis == 0 || part.axis == 1, where, ": axis of the interval is ", part.axis,
-           ", must be 0 (x) or 1 (y)");
+   const bool space = mesh.Dimension() == 3;
+   require(part.axis >= 0 && part.axis < mesh.Dimension(), where, ": axis of the interval is ",
+           part.axis, ", must be ", space ? "0 (x), 1 (y) or 2 (z)" : "0 (x) or 1 (y)");
    require(part.lo <= part.hi, where, ": interval from ", part.lo, " to ", part.hi,
            ", must not be empty");
    require(!part.attributes.empty(), where,
@@ -150,9 +151,10 @@ std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &p
       }
       int element = 0, info = 0;
       mesh.GetBdrElementAdjacentElement(i, element, info);
-      mfem::Array<int> edges, orientations;
-      mesh.GetElementEdges(element, edges, orientations);
-      require(!mesh.FaceIsInterior(edges[info / 64]), where, ": boundary element ", i,
+      mfem::Array<int> faces, orientations;
+      if (space) { mesh.GetElementFaces(element, faces, orientations); }
+      else { mesh.GetElementEdges(element, faces, orientations); }
+      require(!mesh.FaceIsInterior(faces[info / 64]), where, ": boundary element ", i,
               " (attribute ", attribute,
               ") lies between two elements, must be on the outer boundary");
       elements.push_back(i);

@@ -11,11 +11,11 @@ namespace cattaneo
 
 /// Part of a body's boundary: all boundary elements of the given attributes, or only the piece
 /// of them where lo <= coordinate <= hi. The ends of the interval need not be nodes of the
-/// mesh.
+/// mesh, but in space loads and contact need whole faces.
 struct BoundaryPart
 {
    std::vector<int> attributes; ///< of its boundary elements, from 1
-   int axis = 0;                ///< coordinate of the interval: 0 = x, 1 = y
+   int axis = 0;                ///< coordinate of the interval: 0 = x, 1 = y, 2 = z
    double lo = -std::numeric_limits<double>::infinity(); ///< lower end of the interval, in the
                                                          ///< mesh's units
    double hi = std::numeric_limits<double>::infinity();  ///< upper end

@@ -1,3 +1,4 @@
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/elastic/field.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -5,14 +6,26 @@
 namespace cattaneo
 {
 
+namespace
+{
+
+/// Of the point that is set, for messages.
+std::string place_of(mfem::ElementTransformation &at)
+{
+   mfem::Vector x(at.GetSpaceDim());
+   at.Transform(at.GetIntPoint(), x);
+   const bool space = x.Size() == 3;
+   return place_text({x(0), x(1), space ? x(2) : 0.0},
+                     space ? Formulation::space : Formulation::plane);
+}
+
+} // namespace
+
 double Field::at(mfem::ElementTransformation &place, const std::string &where) const
 {
    const double value = f_(place);
    if (std::isfinite(value)) { return value; }
-   mfem::Vector x(2);
-   place.Transform(place.GetIntPoint(), x);
-   require(false, where, ": the value at ", Eigen::Vector2d(x(0), x(1)), " is ", value,
-           ", must be finite");
+   require(false, where, ": the value at ", place_of(place), " is ", value, ", must be finite");
    return value;
 }
 
@@ -26,9 +39,7 @@ Material VaryingMaterial::at(mfem::ElementTransformation &place) const
    }
    catch (const InputError &error)
    {
-      mfem::Vector x(2);
-      place.Transform(place.GetIntPoint(), x);
-      require(false, error.what(), ", found at ", Eigen::Vector2d(x(0), x(1)));
+      require(false, error.what(), ", found at ", place_of(place));
    }
    return material;
 }

@@ -10,8 +10,8 @@
 namespace cattaneo
 {
 
-/// A value that may vary over a body: a number, a function of (x, y), or an mfem::Coefficient,
-/// which must live as long as it may be used.
+/// A value that may vary over a body: a number, a function of (x, y), in space of (x, y, z), or
+/// an mfem::Coefficient, which must live as long as it may be used.
 class Field
 {
 public:
@@ -25,16 +25,21 @@ public:
            { return coefficient.Eval(at, at.GetIntPoint()); })
    {
    }
-   /// A function of (x, y).
+   /// A function of (x, y), or of (x, y, z).
    template <class F,
-             class = std::enable_if_t<std::is_invocable_r_v<double, F, double, double>>>
+             class = std::enable_if_t<std::is_invocable_r_v<double, F, double, double> ||
+                                      std::is_invocable_r_v<double, F, double, double, double>>>
    Field(F f)
       : f_(
            [f = std::move(f)](mfem::ElementTransformation &at)
            {
-              mfem::Vector x(2);
+              mfem::Vector x(at.GetSpaceDim());
               at.Transform(at.GetIntPoint(), x);
-              return f(x(0), x(1));
+              if constexpr (std::is_invocable_r_v<double, F, double, double, double>)
+              {
+                 return f(x(0), x(1), x.Size() > 2 ? x(2) : 0.0);
+              }
+              else { return f(x(0), x(1)); }
            })
    {
    }

@@ -12,6 +12,12 @@ Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement
    mfem::DenseMatrix gradient;
    displacement.GetVectorGradient(transformation, gradient);
    Strain strain{gradient(0, 0), gradient(1, 1), 0, gradient(0, 1) + gradient(1, 0)};
+   if (body.formulation() == Formulation::space)
+   {
+      strain.zz = gradient(2, 2);
+      strain.yz = gradient(1, 2) + gradient(2, 1);
+      strain.xz = gradient(0, 2) + gradient(2, 0);
+   }
    if (body.formulation() == Formulation::axisymmetric)
    {
       mfem::Vector x(2), u(2);

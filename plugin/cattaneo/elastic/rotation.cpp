@@ -1,5 +1,6 @@
 #include <cattaneo/elastic/rotation.hpp>
 #include <cattaneo/elastic/views.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -10,6 +11,8 @@ Rotation largest_rotation(const ElasticBody &body, const Eigen::VectorXd &displa
    mfem::FiniteElementSpace &space = body.space();
    mfem::GridFunction field(&space);
    field.SetFromTrueDofs(to_mfem(displacement));
+   require(body.formulation() != Formulation::space,
+           "largest rotation: the body is in space, must be in a plane");
    Rotation most;
    mfem::DenseMatrix gradient;
    mfem::Vector x(2);

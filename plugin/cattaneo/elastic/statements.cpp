@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/condense/trace.hpp>
 #include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/expression.hpp>
@@ -15,13 +16,30 @@ namespace
 
 /// Refuses a point far outside the body, because its nearest node is not the node that the user
 /// meant.
-void check_point(const ElasticBody &body, const std::string &where, double x, double y)
+void check_point(const ElasticBody &body, const std::string &where,
+                 const Eigen::Vector3d &point)
 {
-   const Eigen::AlignedBox2d box = body.box();
+   const Eigen::AlignedBox3d box = body.box();
    const double slack = 0.01 * box.sizes().norm();
-   const Eigen::Vector2d point(x, y);
-   require(box.exteriorDistance(point) <= slack, where, ": ", point,
-           " lies outside of the body, which extends from ", box.min(), " to ", box.max());
+   const auto text = [&](const Eigen::Vector3d &place)
+   { return place_text(place, body.formulation()); };
+   require(box.exteriorDistance(point) <= slack, where, ": ", text(point),
+           " lies outside of the body, which extends from ", text(box.min()), " to ",
+           text(box.max()));
+}
+
+/// The components that a text names, of a body in space.
+std::vector<int> components_in_space(const std::string &where, const std::string &text)
+{
+   std::vector<int> own;
+   bool known = !text.empty();
+   for (std::size_t k = 0; k < text.size(); ++k)
+   {
+      known = known && text[k] >= 'x' && text[k] <= 'z' && text.find(text[k]) == k;
+      own.push_back(text[k] - 'x');
+   }
+   require(known, where, ": component '", text, "', must be some of x, y and z, as xyz");
+   return own;
 }
 
 /// The named components that a body of this formulation has. About an axis r and z belong to
@@ -29,6 +47,7 @@ void check_point(const ElasticBody &body, const std::string &where, double x, do
 std::vector<int> components(const std::string &where, const std::string &text,
                             Formulation formulation)
 {
+   if (formulation == Formulation::space) { return components_in_space(where, text); }
    const bool plane = formulation == Formulation::plane;
    std::vector<int> own;
    bool known = !text.empty();
@@ -114,9 +133,11 @@ BoundaryPart boundary_part(const std::string &called, const std::string &text,
    require(text.back() == ']', called, ": '", text, form);
    const std::vector<std::string> bounds =
       split(text.substr(bracket + 1, text.size() - bracket - 2), "<");
-   require(bounds.size() == 3 && (bounds[1] == "x" || bounds[1] == "y"), called, ": '", text,
-           form);
-   return {attributes, bounds[1] == "x" ? 0 : 1, number(called, bounds[0]),
+   const std::vector<std::string> axes = {"x", "y", "z"};
+   const auto axis =
+      bounds.size() == 3 ? std::find(axes.begin(), axes.end(), bounds[1]) : axes.end();
+   require(axis != axes.end(), called, ": '", text, form);
+   return {attributes, static_cast<int>(axis - axes.begin()), number(called, bounds[0]),
            number(called, bounds[2])};
 }
 
@@ -124,6 +145,11 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
                          Formulation formulation)
 {
    std::vector<std::string> variables = {"x", "y"};
+   if (formulation == Formulation::space)
+   {
+      const Expression value(called, text, {"x", "y", "z"});
+      return [value](double x, double y, double z) { return value({x, y, z}); };
+   }
    if (formulation != Formulation::plane) { variables = {"x", "y", "r", "z"}; }
    const Expression value(called, text, variables);
    return [value](double x, double y) { return value({x, y, x, y}); };
@@ -145,10 +171,17 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
       if (place[0] == '@')
       {
          const std::vector<std::string> point = split(place.substr(1), ",");
-         require(point.size() == 2, where, ": '", place, "', must be a point such as @0,-1");
-         const double x = number(where, point[0]), y = number(where, point[1]);
-         check_point(body, where, x, y);
-         for (int component : fixed) { body.fix_node(x, y, component); }
+         const bool space = body.formulation() == Formulation::space;
+         require(point.size() == (space ? 3 : 2), where, ": '", place,
+                 "', must be a point such as ", space ? "@0,-1,2" : "@0,-1");
+         Eigen::Vector3d at(0, 0, 0);
+         for (std::size_t k = 0; k < point.size(); ++k) { at[k] = number(where, point[k]); }
+         check_point(body, where, at);
+         for (int component : fixed)
+         {
+            if (space) { body.fix_node(at[0], at[1], at[2], component); }
+            else { body.fix_node(at[0], at[1], component); }
+         }
          continue;
       }
       const BoundaryPart part = boundary_part(where, place, terms);
@@ -184,21 +217,26 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
    {
       const char *name;
       std::size_t words;
-      const char *form;
+      const char *form, *of; ///< the formulations that have it: p(lane), a(xis), s(pace)
    };
    static const Kind kinds[] = {
-      {"pressure", 4, "PATTERN pressure WHERE p"},
-      {"traction", 5, "PATTERN traction WHERE tx ty"},
-      {"body-force", 4, "PATTERN body-force bx by"},
-      {"displacement-x", 4, "PATTERN displacement-x WHERE u"},
-      {"displacement-y", 4, "PATTERN displacement-y WHERE u"},
-      {"displacement-r", 4, "PATTERN displacement-r WHERE u"},
-      {"displacement-z", 4, "PATTERN displacement-z WHERE u"},
-      {"temperature", 3, "PATTERN temperature T"},
-      {"initial-strain", 3, "PATTERN initial-strain e, or xx yy xy zz"},
-      {"traction-t", 4, "PATTERN traction-t WHERE t"},
-      {"twist", 4, "PATTERN twist WHERE angle"}};
-   const bool plane = body.formulation() == Formulation::plane;
+      {"pressure", 4, "PATTERN pressure WHERE p", "pas"},
+      {"traction", 5, "PATTERN traction WHERE tx ty", "pa"},
+      {"traction", 6, "PATTERN traction WHERE tx ty tz", "s"},
+      {"body-force", 4, "PATTERN body-force bx by", "pa"},
+      {"body-force", 5, "PATTERN body-force bx by bz", "s"},
+      {"displacement-x", 4, "PATTERN displacement-x WHERE u", "ps"},
+      {"displacement-y", 4, "PATTERN displacement-y WHERE u", "ps"},
+      {"displacement-r", 4, "PATTERN displacement-r WHERE u", "a"},
+      {"displacement-z", 4, "PATTERN displacement-z WHERE u", "as"},
+      {"temperature", 3, "PATTERN temperature T", "pas"},
+      {"initial-strain", 3, "PATTERN initial-strain e, or xx yy xy zz", "pa"},
+      {"initial-strain", 3, "PATTERN initial-strain e", "s"},
+      {"traction-t", 4, "PATTERN traction-t WHERE t", "a"},
+      {"twist", 4, "PATTERN twist WHERE angle", "a"}};
+   const bool plane = body.formulation() == Formulation::plane,
+              space = body.formulation() == Formulation::space;
+   const char letter = plane ? 'p' : space ? 's' : 'a';
    for (const std::string &statement : split(text, ";\n"))
    {
       const std::string where = called + " '" + statement + "'";
@@ -210,19 +248,15 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       std::vector<std::string> known;
       for (const Kind &k : kinds)
       {
-         const std::string name = k.name;
-         const bool other =
-            plane ? name == "displacement-r" || name == "displacement-z" || around(name)
-                  : name == "displacement-x" || name == "displacement-y";
-         if (other) { continue; }
-         if (words[1] == name) { kind = &k; }
-         known.push_back(name);
+         if (std::string(k.of).find(letter) == std::string::npos) { continue; }
+         if (words[1] == k.name) { kind = &k; }
+         known.push_back(k.name);
       }
       require(kind, where, ": kind '", words[1], "' is not one of ", listed(known),
               std::find(known.begin(), known.end(), pattern) == known.end()
                  ? ""
                  : ": a load begins with its name, as P " + pattern);
-      const bool tensor = words[1] == "initial-strain" && words.size() == 6;
+      const bool tensor = words[1] == "initial-strain" && words.size() == 6 && !space;
       require(words.size() == kind->words || tensor, where, ": has ", words.size(),
               " words, must be ", kind->form,
               words.size() > kind->words ? ": a function is one word, without spaces" : "");
@@ -230,7 +264,11 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       const auto field = [&](std::size_t k)
       { return scalar_field(where, words[k], body.formulation()); };
       const std::string name = kind->name;
-      if (name == "body-force") { body.add_body_force(pattern, field(2), field(3)); }
+      if (name == "body-force" && space)
+      {
+         body.add_body_force(pattern, field(2), field(3), field(4));
+      }
+      else if (name == "body-force") { body.add_body_force(pattern, field(2), field(3)); }
       else if (tensor)
       {
          body.add_initial_strain(pattern, {field(2), field(3), field(4), field(5)});
@@ -242,8 +280,9 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
                  ": the body's coefficient of thermal expansion is not given, must be (key "
                  "'expansion' of a case)");
          const double expansion = terms.expansion;
-         body.add_initial_strain(pattern, [expansion, T = field(2)](double x, double y)
-                                 { return expansion * T(x, y); });
+         body.add_initial_strain(pattern,
+                                 [expansion, T = field(2)](double x, double y, double z)
+                                 { return expansion * T(x, y, z); });
       }
       else
       {
@@ -251,11 +290,16 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
          if (name == "pressure") { body.add_pressure(pattern, part, field(3)); }
          else if (name == "traction-t") { body.add_traction(pattern, part, field(3)); }
          else if (name == "twist") { body.add_displacement(pattern, part, 0, field(3)); }
+         else if (name == "traction" && space)
+         {
+            body.add_traction(pattern, part, field(3), field(4), field(5));
+         }
          else if (name == "traction") { body.add_traction(pattern, part, field(3), field(4)); }
          else
          {
-            const bool first = name.back() == 'x' || name.back() == 'r';
-            body.add_displacement(pattern, part, first ? 0 : 1, field(3));
+            const char last = name.back();
+            const int component = last == 'x' || last == 'r' ? 0 : space && last == 'z' ? 2 : 1;
+            body.add_displacement(pattern, part, component, field(3));
          }
       }
    }

@@ -188,7 +188,7 @@ private:
 /// The fault of an element, as numbers that ranks can exchange.
 struct Place
 {
-   double number, attribute, x, y;
+   double number, attribute, x, y, z;
 };
 
 /// The mesh must be in space of two or three dimensions.
@@ -203,14 +203,17 @@ Place place(mfem::Mesh &mesh, int element)
       number = static_cast<double>(shared->GetGlobalElementNum(element));
    }
 #endif
-   return {number, static_cast<double>(mesh.GetAttribute(element)), centre(0), centre(1)};
+   return {number, static_cast<double>(mesh.GetAttribute(element)), centre(0), centre(1),
+           mesh.Dimension() == 3 ? centre(2) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 std::string name(const double *place)
 {
    std::ostringstream text;
    text << "element " << static_cast<long>(place[0]) << " (attribute " << place[1]
-        << ", centre (" << place[2] << ", " << place[3] << "))";
+        << ", centre (" << place[2] << ", " << place[3];
+   if (!std::isnan(place[4])) { text << ", " << place[4]; }
+   text << "))";
    return text.str();
 }
 
@@ -224,10 +227,10 @@ std::vector<double> first_of_all(const Ranks &ranks, const std::vector<double> &
    return all;
 }
 
-void check_plane(mfem::Mesh &mesh)
+void check_dimension(mfem::Mesh &mesh)
 {
    const int dimension = mesh.Dimension(), space = mesh.SpaceDimension();
-   if (dimension == 2 && space == 2) { return; }
+   if (dimension == space && (dimension == 2 || dimension == 3)) { return; }
    std::ostringstream which;
    if (dimension == 2 && space < 2)
    {
@@ -250,11 +253,152 @@ void check_plane(mfem::Mesh &mesh)
          worst = e;
       }
       const Place at = place(mesh, worst);
-      which << "; " << name(&at.number) << " is at z = " << z
+      Place flat = at;
+      flat.z = std::numeric_limits<double>::quiet_NaN();
+      which << "; " << name(&flat.number) << " is at z = " << z
             << ": turn the mesh into the xy plane and write two coordinates";
    }
    require(false, "elastic body: the mesh is of dimension ", dimension,
-           " in space of dimension ", space, ", both must be 2", which.str());
+           " in space of dimension ", space, ", both must be 2, or both 3", which.str());
+}
+
+/// Numbers of three indices, of which the first runs along columns: now the second one does.
+MatrixXd next_first(const MatrixXd &c)
+{
+   const MatrixXd turned = c.transpose();
+   return Eigen::Map<const MatrixXd>(turned.data(), c.rows(), c.cols());
+}
+
+/// Bernstein coefficients (n × n²) of a polynomial of three variables, from its values, of
+/// which the first index runs fastest.
+MatrixXd bernstein_of(const MatrixXd &of_values, const VectorXd &values)
+{
+   const Index n = of_values.rows();
+   MatrixXd c = Eigen::Map<const MatrixXd>(values.data(), n, n * n);
+   // Three turns lead back to the first index.
+   for (int direction = 0; direction < 3; ++direction) { c = next_first(of_values * c); }
+   return c;
+}
+
+/// True if the polynomial of these coefficients (n × n²) is above a level on the whole cube.
+bool above_in_cube(const MatrixXd &c, double level, int depth = 6)
+{
+   if (c.minCoeff() > level) { return true; }
+   const Index last = c.rows() - 1, n = c.rows();
+   for (const Index row : {Index(0), last})
+   {
+      for (const Index column : {Index(0), last, n * last, n * n - 1})
+      {
+         if (c(row, column) <= level) { return false; }
+      }
+   }
+   if (depth == 0) { return false; }
+   for (const MatrixXd &half : halves(c))
+   {
+      for (const MatrixXd &quarter : halves(next_first(half)))
+      {
+         for (const MatrixXd &eighth : halves(next_first(quarter)))
+         {
+            if (!above_in_cube(next_first(eighth), level, depth - 1)) { return false; }
+         }
+      }
+   }
+   return true;
+}
+
+/// Solids of one shape: where the determinant is sampled. The reference is the unit cube, of
+/// which sides of tetrahedra and wedges are points or edges.
+class SolidShape
+{
+public:
+   explicit SolidShape(const mfem::FiniteElement &map)
+      : bernstein_(map.GetGeomType() == mfem::Geometry::TETRAHEDRON ? 3 * map.GetOrder() - 3
+                                                                    : 3 * map.GetOrder() - 1)
+   {
+      const VectorXd &at = bernstein_.points;
+      mfem::DenseMatrix gradient(map.GetDof(), 3);
+      const bool tetrahedron = map.GetGeomType() == mfem::Geometry::TETRAHEDRON,
+                 wedge = map.GetGeomType() == mfem::Geometry::PRISM;
+      for (const double w : at)
+      {
+         for (const double v : at)
+         {
+            for (const double u : at)
+            {
+               mfem::IntegrationPoint point;
+               point.Set3(u, tetrahedron || wedge ? v * (1 - u) : v,
+                          tetrahedron ? w * (1 - u) * (1 - v) : w);
+               map.CalcDShape(point, gradient);
+               gradients_.emplace_back(
+                  Eigen::Map<const MatrixXd>(gradient.Data(), map.GetDof(), 3));
+            }
+         }
+      }
+   }
+   Fault fault(const mfem::DenseMatrix &nodes) const
+   {
+      const Eigen::Map<const MatrixXd> x(nodes.Data(), 3, nodes.Width());
+      if (!x.allFinite()) { return Fault::none; } // said of the node
+      VectorXd determinant(static_cast<Index>(gradients_.size()));
+      double edges = 0;
+      for (Index k = 0; k < determinant.size(); ++k)
+      {
+         const Eigen::Matrix3d J = x * gradients_[k];
+         determinant[k] = J.determinant();
+         edges = std::max(edges, J.col(0).norm() * J.col(1).norm() * J.col(2).norm());
+      }
+      const double largest = determinant.cwiseAbs().maxCoeff();
+      if (largest <= 1e-10 * edges) { return Fault::flat; }
+      const MatrixXd c = bernstein_of(bernstein_.of_values, determinant);
+      if (above_in_cube(c, tolerance * largest)) { return Fault::none; }
+      return above_in_cube(-c, tolerance * largest) ? Fault::turned : Fault::folded;
+   }
+
+private:
+   Bernstein bernstein_;
+   std::vector<MatrixXd> gradients_; ///< nodes × 3, of each sample
+};
+
+/// check_elements() of a mesh in space.
+void check_solids(mfem::Mesh &mesh)
+{
+   std::array<std::unique_ptr<SolidShape>, mfem::Geometry::NUM_GEOMETRIES> shapes;
+   mfem::IsoparametricTransformation transformation;
+   for (int e = 0; e < mesh.GetNE(); ++e)
+   {
+      mesh.GetElementTransformation(e, &transformation);
+      const mfem::FiniteElement &map = *transformation.GetFE();
+      const Place at = place(mesh, e);
+      require(map.GetGeomType() != mfem::Geometry::PYRAMID, "elastic body: ", name(&at.number),
+              " of the mesh is a pyramid, must be a hexahedron, a tetrahedron or a wedge");
+      require(!mesh.NURBSext, "elastic body: the mesh is one of splines in space, must be one "
+                              "of polynomials");
+      auto &shape = shapes[map.GetGeomType()];
+      if (!shape) { shape = std::make_unique<SolidShape>(map); }
+      const Fault fault = shape->fault(transformation.GetPointMat());
+      require(fault != Fault::flat, "elastic body: ", name(&at.number),
+              " of the mesh has no volume: corners of it coincide or lie in one plane; take "
+              "it out or move its nodes apart");
+      require(fault != Fault::turned, "elastic body: ", name(&at.number),
+              " of the mesh is turned inside out (the determinant of its Jacobian is "
+              "negative): number its nodes in the other sense");
+      require(fault != Fault::folded, "elastic body: ", name(&at.number),
+              " of the mesh is folded over (the determinant of its Jacobian changes sign or "
+              "is zero within it): move its nodes so that it is convex");
+   }
+   for (int face = 0; face < mesh.GetNumFaces(); ++face)
+   {
+      int one = 0, other = 0, info_one = 0, info_other = 0;
+      mesh.GetFaceElements(face, &one, &other);
+      mesh.GetFaceInfos(face, &info_one, &info_other);
+      // Seen from outside of each, faces turn counterclockwise: those of neighbours in opposite
+      // senses, which MFEM numbers by odd orientations.
+      if (other < 0 || info_other % 2 == 1) { continue; }
+      const Place first = place(mesh, one), second = place(mesh, other);
+      require(false, "elastic body: ", name(&first.number), " and ", name(&second.number),
+              " of the mesh lie on the same side of the face that they share: the mesh is "
+              "folded over there, move the nodes that were drawn across");
+   }
 }
 
 } // namespace
@@ -270,7 +414,12 @@ std::vector<int> folded_elements(mfem::Mesh &mesh, const std::vector<int> &eleme
 
 void check_elements(mfem::Mesh &mesh)
 {
-   check_plane(mesh);
+   check_dimension(mesh);
+   if (mesh.Dimension() == 3)
+   {
+      check_solids(mesh);
+      return;
+   }
    require(
       mesh.GetNE() == 0 || mesh.GetNEdges() > 0,
       "elastic body: the mesh has no edges, from which the boundary is found: finalize it with "
@@ -283,9 +432,9 @@ void check_elements(mfem::Mesh &mesh)
       const Fault fault = shapes.fault(e);
       if (fault == Fault::none) { continue; }
       const Place at = place(mesh, e);
-      faulty = {static_cast<double>(fault), at.number, at.attribute, at.x, at.y};
+      faulty = {static_cast<double>(fault), at.number, at.attribute, at.x, at.y, at.z};
    }
-   faulty = first_of_all(ranks, faulty, 5);
+   faulty = first_of_all(ranks, faulty, 6);
    if (!faulty.empty())
    {
       const auto fault = static_cast<Fault>(static_cast<int>(faulty[0]));
@@ -316,13 +465,13 @@ void check_elements(mfem::Mesh &mesh)
       // Two counterclockwise elements go along their common edge in opposite directions.
       if (start(one, info_one) != start(other, info_other)) { continue; }
       const Place first = place(mesh, one), second = place(mesh, other);
-      pair = {first.number,  first.attribute,  first.x,  first.y,
-              second.number, second.attribute, second.x, second.y};
+      pair = {first.number,  first.attribute,  first.x,  first.y,  first.z,
+              second.number, second.attribute, second.x, second.y, second.z};
    }
-   pair = first_of_all(ranks, pair, 8);
+   pair = first_of_all(ranks, pair, 10);
    if (!pair.empty())
    {
-      require(false, "elastic body: ", name(pair.data()), " and ", name(&pair[4]),
+      require(false, "elastic body: ", name(pair.data()), " and ", name(&pair[5]),
               " of the mesh lie on the same side of the edge that they share: the mesh is "
               "folded over there, move the nodes that were drawn across");
    }

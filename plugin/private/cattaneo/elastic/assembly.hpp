@@ -15,6 +15,8 @@ namespace cattaneo
 
     - the sparsity is that of the nodes, built once; each pair of nodes adds its 2×2 block;
     - all points of an element are integrated at once, as products of small matrices;
+    In space MFEM's own form and integrator do it.
+
     - in the plane, elements that are affine (triangles with straight sides, parallelograms)
       share the integrals ∫ ∂φi/∂ξa ∂φj/∂ξb of the reference element, whatever their size.
 
