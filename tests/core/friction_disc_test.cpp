@@ -145,8 +145,6 @@ TEST(FrictionDisc, AnIncrementOutOfReachIsReachedInStepsOfItsLoad)
    std::mt19937 random(14);
    std::uniform_real_distribution<double> uniform(-1, 1);
    FrictionSettings few;
-   few.sweeps = 0;
-   few.max_attempts = 1;
    few.max_newton = 3;
    int out_of_reach = 0;
    for (int k = 0; k < 300; ++k)

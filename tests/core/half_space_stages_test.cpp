@@ -1,8 +1,10 @@
+#include "contact_laws.hpp"
 #include "half_space_contacts.hpp"
 
 #include <cattaneo/shakedown/limit.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <record.hpp>
 
 // Half-spaces in three dimensions with more rectangles: late stages of CONTACT's "spence35",
@@ -81,6 +83,49 @@ TEST(HalfSpaceStages, OneRectangleOfAThousand)
    EXPECT_EQ(whole.status, state.status);
    EXPECT_NEAR(whole.p.sum(), 1.1e-5, 1e-12);
    EXPECT_LE(solver.counters().dense_factorisations, 20);
+}
+
+/// A rigid sphere is pressed onto 1,125 squares of another material in one increment. Newton's
+/// steps with all of the load go on changing stick to slip and back.
+TEST(HalfSpaceStages, ARigidSphereIsPressedInOneIncrement)
+{
+   const double edge = 2.0 / 35, P = 4.0 / 30 / 0.91;
+   const HalfSpace contact = cattaneo_test::contact_of(
+      {1, 0.3}, {}, edge, cattaneo_test::cells(39, edge, 1 + 1.5 * edge));
+   ReducedProblem problem = contact.problem(contact.centres.rowwise().squaredNorm() / 20);
+   ASSERT_EQ(problem.nodes(), 1125);
+   set_friction(problem, 0.3);
+   const ContactState virgin = ContactState::virgin(problem);
+   ContactState state = virgin;
+   FrictionSolver solver(problem);
+   const IncrementReport report = solver.solve(state, problem.multipliers({{"P", P}}));
+   ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+   EXPECT_STREQ(report.found_by, "growing load");
+   // 1. The laws, from displacements alone, and equilibrium.
+   cattaneo_test::LawChecker laws(problem, virgin);
+   EXPECT_LE(laws.violation(virgin.v, state), 1) << laws.what();
+   EXPECT_NEAR(state.p.sum(), P, 1e-10 * P);
+   // 2. The answer is unique, so that it has the symmetry of the squares: mirrored in x = y and
+   // in x = 0 it is the same.
+   std::map<std::pair<long, long>, Eigen::Index> at;
+   const auto cell = [&](Eigen::Index i)
+   {
+      return std::make_pair(std::lround(contact.centres(i, 0) / edge),
+                            std::lround(contact.centres(i, 1) / edge));
+   };
+   for (Eigen::Index i = 0; i < problem.nodes(); ++i) { at[cell(i)] = i; }
+   const double small = 1e-8 * state.p.maxCoeff();
+   for (const auto &[where, i] : at)
+   {
+      const auto [x, y] = where;
+      const Eigen::Index n = problem.nodes(), turned = at.at({y, x}), mirrored = at.at({-x, y});
+      EXPECT_NEAR(state.p[turned], state.p[i], small);
+      EXPECT_NEAR(state.q[n + turned], state.q[i], small);
+      EXPECT_NEAR(state.p[mirrored], state.p[i], small);
+      EXPECT_NEAR(state.q[mirrored], -state.q[i], small);
+   }
+   EXPECT_GT(number_of(state, NodeState::stick), 100);
+   EXPECT_GT(number_of(state, NodeState::slip), 100);
 }
 
 /// A rigid punch of 545 squares under shear around a circle: proven bounds within 1e-4.

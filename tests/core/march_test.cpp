@@ -1646,7 +1646,6 @@ TEST(LoadHistory, RefusesBadInput)
    refuses([](MarchSettings &s) { s.friction.tolerance = 1; });
    refuses([](MarchSettings &s) { s.friction.tolerance = 0; });
    refuses([](MarchSettings &s) { s.friction.sweeps = -1; });
-   refuses([](MarchSettings &s) { s.friction.max_attempts = 0; });
    refuses([](MarchSettings &s) { s.friction.max_newton = 0; });
    refuses([](MarchSettings &s) { s.friction.max_sweeps = 0; });
    MarchSettings settings;

@@ -79,18 +79,14 @@ bool polished(Increment &at)
    return ends_with_least_motion(at);
 }
 
-bool newton_after_sweeps(Increment &at, int sweeps)
+Search active_set(Increment &at)
 {
-   at.go_back();
+   // With two tangents Newton's steps are as many from the start itself.
+   const int sweeps = at.system.disc() ? 0 : at.system.settings.sweeps;
    for (int k = 0; k < sweeps; ++k) { sweep(at); }
    at.find_pieces();
    at.swept = {at.u, at.status};
-   return newton(at);
-}
-
-Search active_set(Increment &at)
-{
-   return newton_after_sweeps(at, at.system.settings.sweeps) ? Search::found : Search::not_here;
+   return newton(at) ? Search::found : Search::not_here;
 }
 
 } // namespace cattaneo

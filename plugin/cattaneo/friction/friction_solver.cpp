@@ -22,7 +22,6 @@ void FrictionSettings::validate() const
 {
    require_between("friction settings: tolerance", tolerance, 0, 1);
    require_at_least("friction settings: sweeps", sweeps, 0);
-   require_at_least("friction settings: max_attempts", max_attempts, 1);
    require_at_least("friction settings: max_newton", max_newton, 1);
    require_at_least("friction settings: max_sweeps", max_sweeps, 1);
 }
@@ -57,11 +56,13 @@ const std::vector<Method> in_the_plane = {
 /// With two tangents:
 const std::vector<Method> in_the_disc = {
    // Nearly every increment.
-   {"active set", active_set_in_the_disc, false},
+   {"active set", active_set, false},
+   // Large increments of many nodes, friction above critical, free bodies.
+   {"growing load", growing_load, false},
    springs,
-   // Strong coupling, friction above critical, nodes at one place, nearly singular stiffness.
+   // Strong coupling, friction above critical, nodes at one place.
    {"growing friction", growing_friction, true},
-   // A few of the same families, and free bodies.
+   // Stiffness like a Hilbert matrix, of free bodies.
    {"damped Newton", damped_newton, true}};
 
 bool find_end(Increment &at, bool thorough = true)
@@ -101,24 +102,6 @@ bool rests(Increment &at)
    at.report = {};
    at.report.found_by = "rest";
    return ends_with_least_motion(at);
-}
-
-/// A frictionless contact with its slip among the unknowns, which a pad that rocks on a nearly
-/// straight line needs.
-IncrementReport solve_with_slip(FrictionSystem &system, ContactState &state,
-                                const VectorXd &multipliers)
-{
-   std::unique_ptr<FrictionSystem> &whole = system.without_slip->kept;
-   if (!whole)
-   {
-      whole = std::make_unique<FrictionSystem>(system.shared, system.settings, true);
-      system.counters += whole->counters;
-   }
-   const Counters before = whole->counters;
-   const IncrementReport report = whole->solve(state, multipliers);
-   system.counters += whole->counters;
-   system.counters -= before;
-   return report;
 }
 
 /// Names the cause why no end of the increment was found.
@@ -173,16 +156,11 @@ void explain_failure(Increment &at)
    report.message = message.str();
 }
 
-} // namespace
-
-bool find_end_quickly(Increment &at)
+/// An increment in the unknowns of one system. The state is moved to its end, if one is found.
+IncrementReport solve_in(FrictionSystem &system, ContactState &state,
+                         const VectorXd &multipliers)
 {
-   return find_end(at, false);
-}
-
-IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multipliers)
-{
-   Increment at(*this, state, multipliers);
+   Increment at(system, state, multipliers);
    IncrementReport &report = at.report;
    const Mechanism &mechanism = at.cause.mechanism;
    // 1. If no admissible contact forces balance the loads, there is nothing to search for.
@@ -195,26 +173,59 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
    // may prove that there is no equilibrium.)
    if (!solved && !mechanism.exists)
    {
-      solved = !(bends() && at.finds_mechanism()) && rests(at);
+      solved = !(system.bends() && at.finds_mechanism()) && rests(at);
    }
-   // 5. With a free body without friction on a nearly straight line, the elimination of slip
-   // may have cost the digits. The increment is solved once more with slip as an unknown.
-   const bool eliminated = without_slip && without_slip->tangential;
-   if (!solved && !mechanism.exists && eliminated)
-   {
-      return solve_with_slip(*this, state, multipliers);
-   }
+   // 5. Status and message.
    if (!solved)
    {
       report.found_by = "";
       explain_failure(at);
       return report;
    }
-   if (!frictionless()) { at.fit_states(at.next); }
+   if (!system.frictionless()) { at.fit_states(at.next); }
    state = std::move(at.next);
-   const IncrementReport unique = uniqueness(state);
+   const IncrementReport unique = system.uniqueness(state);
    report.status = unique.status;
    report.message = unique.message;
+   return report;
+}
+
+/// A frictionless contact with its slip among the unknowns, which a pad that rocks on a nearly
+/// straight line needs.
+IncrementReport solve_with_slip(FrictionSystem &system, ContactState &state,
+                                const VectorXd &multipliers)
+{
+   std::unique_ptr<FrictionSystem> &whole = system.without_slip->kept;
+   if (!whole)
+   {
+      whole = std::make_unique<FrictionSystem>(system.shared, system.settings, true);
+      system.counters += whole->counters;
+   }
+   const Counters before = whole->counters;
+   const IncrementReport report = solve_in(*whole, state, multipliers);
+   system.counters += whole->counters;
+   system.counters -= before;
+   return report;
+}
+
+} // namespace
+
+bool find_end_quickly(Increment &at)
+{
+   return find_end(at, false);
+}
+
+IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multipliers)
+{
+   // 1. The increment, without friction with slip eliminated.
+   IncrementReport report = solve_in(*this, state, multipliers);
+   // 2. For a free body without friction on a nearly straight line the elimination may have
+   // cost the digits. A motion that carries a body away has another status.
+   const bool eliminated = without_slip && without_slip->tangential;
+   if (eliminated && report.status == FrictionStatus::stalled)
+   {
+      report = solve_with_slip(*this, state, multipliers);
+   }
    return report;
 }
 

@@ -33,9 +33,10 @@ enum class FrictionMethod
    automatic, ///< One method after the other, as docs/increments.md tells. With one tangential
               ///< component or none: Newton's steps on node states after a few Gauss–Seidel
               ///< sweeps, Lemke's method, weak springs on the rigid motions of free bodies, and
-              ///< Lemke's method from random places. With two: Newton's steps without and with
-              ///< sweeps, weak springs, and damped Newton from several starts, also random
-              ///< ones. At last free bodies may stay where springs hold them without force.
+              ///< Lemke's method from random places. With two: Newton's steps, the same for
+              ///< parts of the loads, weak springs, a path along which friction grows, and
+              ///< damped Newton from several starts, also random ones. At last free bodies may
+              ///< stay where springs hold them without force.
    gauss_seidel ///< node by node only (thesis 3.5, appendix D)
 };
 
@@ -47,12 +48,9 @@ struct FrictionSettings
    /// loads with the contact clamped, of the contact, of initial slip or interference). If
    /// round-off is larger than this, round-off is the tolerance, which the report tells.
    double tolerance = 1e-12;
-   /// Gauss–Seidel sweeps before Newton's steps. With two tangential components an attempt
-   /// without sweeps comes first.
+   /// Gauss–Seidel sweeps before Newton's steps, with one tangential component or none.
    int sweeps = 2;
-   int max_attempts = 3; ///< with two tangential components: attempts after sweeps, each after
-                         ///< twice the sweeps of the one before
-   int max_newton = 60;  ///< Newton's steps of one attempt
+   int max_newton = 60;      ///< Newton's steps of one attempt
    long max_sweeps = 100000; ///< sweeps of the pure Gauss–Seidel method
 
    /// InputError naming the setting, its value and what is allowed.
@@ -68,8 +66,8 @@ struct IncrementReport
    /// If a solution was found: its largest violation of the given equations and of the laws,
    /// over the largest force so far, computed in double precision. The true one is larger by
    /// the round-off at most. If none was found no state is returned. If the message names these
-   /// numbers, they are then residuals of the natural map where the first sweeps ended.
-   /// Otherwise they mean nothing.
+   /// numbers, they are then residuals of the natural map where the sweeps ended, or at the
+   /// start without sweeps. Otherwise they mean nothing.
    double residual_normal = 0;     ///< of normal displacements and forces
    double residual_tangential = 0; ///< of slip and friction forces
    double round_off = 0; ///< estimate of the smallest residual that round-off allows, relative

@@ -272,8 +272,9 @@ Search growing_friction(Increment &at)
    const FrictionSystem &s = at.system;
    // Where bodies can move freely nothing bounds the path.
    if (s.problem.rigid_motions.cols() > 0) { return Search::not_here; }
+   constexpr double operations = 3e9; // a second or two
    const double N = static_cast<double>(s.K.rows());
-   auto left = static_cast<Index>(search_operations / disc_step_operations(N));
+   auto left = static_cast<Index>(operations / disc_step_operations(N));
    // One path in a hundred ends in a circle, as steps may jump from one branch to another.
    // Other roundings give other paths: as many as so many factors allow.
    constexpr Index enough = 1000, few = 100;

@@ -44,7 +44,7 @@ private:
    void take_wedged(ConeProgramme programme);
    Trial attempt(double friction);
    bool closed() const;
-   double next_friction(const Trial &trial);
+   double next_friction(const Trial &trial, double last);
    LimitReport conclude(const std::string &message);
 
    ConeProgramme clearance(double friction) const
@@ -147,7 +147,8 @@ bool FrictionLimit::closed() const
    return highest() - report_.lower <= settings_.tolerance * highest();
 }
 
-double FrictionLimit::next_friction(const Trial &trial)
+/// The friction of the next trial, after one with `last`.
+double FrictionLimit::next_friction(const Trial &trial, double last)
 {
    if (trial.excluded || trial.solution.outcome == ConeOutcome::ceiling || undecided_ > 0)
    {
@@ -156,7 +157,11 @@ double FrictionLimit::next_friction(const Trial &trial)
       // other places in the interval are tried.
       constexpr double share[] = {0.5, 0.5, 0.25, 0.75, 0.1};
       forget_best();
-      return report_.lower + share[undecided_] * (highest() - report_.lower);
+      const auto place = [&]
+      { return report_.lower + share[undecided_] * (highest() - report_.lower); };
+      // The middle was tried already, if the last trial was there.
+      if (undecided_ == 1 && place() == last) { ++undecided_; }
+      return place();
    }
    start_ = {0, trial.solution.r, trial.solution.mechanism};
    // Dinkelbach's step: the friction that the best slip needs, a little less, so that the next
@@ -218,7 +223,7 @@ LimitReport FrictionLimit::find()
       if (settings_.monitor.stopped() || closed()) { break; }
       undecided_ = trial.better || trial.excluded ? 0 : undecided_ + 1;
       if (undecided_ == 5) { break; }
-      f = next_friction(trial);
+      f = next_friction(trial, f);
    }
    return conclude(message);
 }

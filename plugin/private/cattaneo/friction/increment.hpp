@@ -51,9 +51,7 @@ struct Increment
    std::vector<DiscSlip> direction; // disc: for slipping nodes, as last linearised
    VectorXd piece; // plane, bounds that bend: a pressure on the present piece of each node
    double reference = 0; // largest force so far, the scale of residuals
-   // End of the last sweeps; without sweeps the start. Further sweeps begin here, and so does
-   // the first attempt of damped Newton. All other attempts begin at the start of the
-   // increment.
+   // End of the sweeps before Newton's steps; without sweeps the start.
    Place swept;
 
    IncrementReport report;

@@ -19,13 +19,11 @@ void sweep(Increment &at);
 /// Sweeps until nothing changes.
 Search gauss_seidel(Increment &at);
 
-/// Plane: semismooth Newton after a few sweeps. Node states give linear equations, and their
-/// solution gives new states.
+/// Semismooth Newton from the start, in the plane after a few sweeps. Node states give linear
+/// equations, and their solution gives new states.
 Search active_set(Increment &at);
 /// From the present states alone.
 bool newton(Increment &at);
-/// After so many sweeps, which begin where the last ones ended.
-bool newton_after_sweeps(Increment &at, int sweeps);
 /// Takes the states that follow from the present displacements and forces, with one tangent or
 /// none. @return how many nodes changed their state
 Eigen::Index ask_for_states(Increment &at);
@@ -38,25 +36,23 @@ bool polished(Increment &at);
 Search lemke(Increment &at);
 Search lemke_from_afar(Increment &at);
 
-/// Two tangents: Newton from the start itself, then after sweeps, more before each attempt.
-Search active_set_in_the_disc(Increment &at);
+/// Two tangents: Newton with parts of the loads, each from the end of the one before.
+Search growing_load(Increment &at);
 /// Two tangents, where nothing can move freely: follows the solutions with a share of friction,
 /// and with rounded laws, from no friction to all of it.
 Search growing_friction(Increment &at);
-/// Two tangents: Newton's method on the natural map with a line search, from where the sweeps
-/// ended, from the start of the increment, and from random places about it.
+/// Two tangents: Newton's method on the natural map with a line search, from the start of the
+/// increment and from random places about it.
 Search damped_newton(Increment &at);
 
 /// Two tangents: Newton's steps from the states in which the natural map has the nodes. An
 /// answer that may be a free body that slides away does not count (may_slide()).
 bool ends_from_natural_states(Increment &at);
-/// Operations of one of Newton's steps with N displacements, and how many of them a search of
-/// an increment with two tangents may take: a second or two.
+/// Operations of one of Newton's steps with N displacements.
 inline double disc_step_operations(double N)
 {
    return N * N * (N + 40) + 5e4;
 }
-constexpr double search_operations = 3e9;
 
 /// Uses only the methods before the weak springs, which suffice if something holds the bodies.
 bool find_end_quickly(Increment &at);

@@ -1,4 +1,4 @@
-// How the end of an increment is searched for with two tangential components.
+// Two tangents: damped Newton on the natural map, from the start and from random places.
 
 #include <cattaneo/friction/methods.hpp>
 #include <cmath>
@@ -10,20 +10,6 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-Search active_set_in_the_disc(Increment &at)
-{
-   const FrictionSettings &settings = at.system.settings;
-   // Newton's steps are as many from the state at the start as from a swept one.
-   if (newton(at)) { return Search::found; }
-   int sweeps = settings.sweeps;
-   for (int k = 0; k < settings.max_attempts; ++k)
-   {
-      if (newton_after_sweeps(at, sweeps)) { return Search::found; }
-      sweeps = std::max(4, 2 * sweeps);
-   }
-   return Search::not_here;
-}
 
 bool ends_from_natural_states(Increment &at)
 {
@@ -84,13 +70,13 @@ MatrixXd natural_map_derivative(const Increment &at)
 }
 
 /// Newton's method on the natural map from the present displacements, damped so that the
-/// residual falls in every step. False if it does not vanish.
-bool descend(Increment &at)
+/// residual falls in every step. False if it does not vanish in so many steps.
+bool descend(Increment &at, long most)
 {
    FrictionSystem &s = at.system;
    at.F = at.f + s.product->times(at.u);
    VectorXd R = natural_map(at);
-   for (int k = 0; k < 2 * s.settings.max_newton; ++k)
+   for (long k = 0; k < std::min<long>(most, 2 * s.settings.max_newton); ++k)
    {
       // Near enough for the active set to go on from here.
       if (R.norm() <= 1e-9 * at.reference + at.round_off().maxCoeff()) { return true; }
@@ -118,35 +104,37 @@ bool descend(Increment &at)
 
 } // namespace
 
-/// Starts from the present displacements, from those at the start of the increment, and from
-/// random ones at growing distances. The unit of distance is the displacement that the loads
-/// cause at a node alone. The number of starts is limited by the number of operations (a second
-/// or two). The generator is seeded afresh, so that equal increments start alike.
+/// Starts from the displacements at the start of the increment and from random ones at growing
+/// distances. The unit of distance is the displacement that the loads cause at a node alone.
+/// The number of starts is limited by the number of operations (half a second). The generator
+/// is seeded afresh, so that equal increments start alike.
 Search damped_newton(Increment &at)
 {
    FrictionSystem &s = at.system;
    // A body that drifts away is unlikely to have an equilibrium elsewhere, so the search for
    // one is shorter.
-   const double operations = moves_away(at) ? 2e8 : search_operations;
+   const double operations = moves_away(at) ? 2e8 : 1e9,
+                step = disc_step_operations(static_cast<double>(s.K.rows()));
    const VectorXd u_old = at.start.displacements();
    const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();
    const Index starts = std::clamp<Index>(4000000 / (s.n * s.n * s.n), 2, 1000);
-   const double step = disc_step_operations(static_cast<double>(s.K.rows()));
    const long first_step = s.counters.newton_steps;
    std::mt19937_64 random(1);
    for (Index start = 0; start < starts; ++start)
    {
-      if (start > 1 && step * double(s.counters.newton_steps - first_step) > operations)
-      {
-         break;
-      }
-      if (start > 0) { at.u = u_old; }
+      // 1. The start itself is worth ten times as many. With 700 nodes that is not one step.
+      const double left = (start == 0 ? 10 : 1) * operations -
+                          step * static_cast<double>(s.counters.newton_steps - first_step);
+      if (left < step) { break; }
+      // 2. Displacements.
+      at.u = u_old;
       const double size = std::pow(10, -2 + 4.0 * start / starts);
-      for (Index k = 0; k < at.u.size() && start > 1; ++k)
+      for (Index k = 0; k < at.u.size() && start > 0; ++k)
       {
          at.u[k] += size * far[k] * (std::ldexp(double(random() >> 11), -52) - 1);
       }
-      if (!descend(at)) { continue; }
+      // 3. A solution.
+      if (!descend(at, static_cast<long>(left / step))) { continue; }
       if (ends_from_natural_states(at)) { return Search::found; }
    }
    return Search::not_here;
