@@ -343,6 +343,7 @@ def test_equilibrium_in_long_double_and_restart():
     again = cattaneo.march(problem, cattaneo.LoadHistory.through(problem, points), first).state
     for name in ("q", "p", "v", "w"):
         assert np.array_equal(getattr(again, name), getattr(state, name)), name
+    assert reduction.warnings(state) == []
     slip = np.hypot(*state.q.reshape(2, -1)) > 0.3 * state.p * (1 - 1e-9)
     assert slip.any() and not slip.all()
     long = np.longdouble

@@ -722,6 +722,11 @@ TEST(Surfaces, FilesKeepBodiesInSpace)
       EXPECT_LT(difference(on_surface(read, "BOTTOM").S, on_surface(body, "BOTTOM").S), 1e-13);
       std::filesystem::remove(file);
    }
+   // Without loads too.
+   const std::string bare = "surfaces_test.npz";
+   write_npz(bare, block({1, 1, 1}, {0, 0, 0}, {1, 1, 1}, 1, 0.3));
+   EXPECT_TRUE(read_stiffness(bare).loads.empty());
+   std::filesystem::remove(bare);
    expect_input_error([&] { write_abaqus("surfaces_test.inp", body); }, "is in space");
    std::filesystem::remove("surfaces_test.dofs");
 }

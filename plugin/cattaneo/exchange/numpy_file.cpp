@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cattaneo/exchange/numpy_file.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
@@ -131,17 +132,21 @@ NumpyArray numpy_array(const std::string &content, const std::string &name)
                                                                  : 0;
    require(size > 0, "file '", name, "' has numbers of type ", kind,
            ", must be float64, float32, int64 or int32");
-   std::size_t count = 1;
    for (const char *c = shape.c_str() + 1; !shape.empty() && *c;)
    {
       char *end = nullptr;
       const long long extent = std::strtoll(c, &end, 10);
       if (end == c) { break; }
-      require(extent >= 0 && (extent == 0 || count <= bytes / size / extent), "file '", name,
-              "' is cut short: it has ", bytes, " bytes for a shape ", shape, ")");
       array.shape.push_back(extent);
-      count *= extent;
       c = *end == ',' ? end + 1 : end;
+   }
+   const bool empty = std::count(array.shape.begin(), array.shape.end(), 0) > 0;
+   std::size_t count = empty ? 0 : 1;
+   for (const auto extent : array.shape)
+   {
+      require(extent >= 0 && (empty || count <= bytes / size / extent), "file '", name,
+              "' is cut short: it has ", bytes, " bytes for a shape ", shape, ")");
+      count *= extent;
    }
    require(count * size == bytes, "file '", name, "' has ", bytes, " bytes, must have ",
            count * size, " for its ", count, " numbers");

@@ -28,9 +28,12 @@ std::string sentence(const Parts &...parts)
    return text.str();
 }
 
-std::string at(const Vector2d &place)
+/// A place of two coordinates or of three.
+std::string at(const Eigen::VectorXd &place)
 {
-   return sentence("(", place[0], ", ", place[1], ")");
+   std::string text = sentence("(", place[0]);
+   for (Index c = 1; c < place.size(); ++c) { text += sentence(", ", place[c]); }
+   return text + ")";
 }
 
 /// An end that is taken for a plane of symmetry although the line meets it at another angle
@@ -91,7 +94,7 @@ void say_normals(const ReducedProblem &problem, const InterfaceReport &face,
    const double turn = face.turn[worst], f = problem.friction[face.first + worst];
    said.push_back(sentence(
       "interface '", face.name, "': at node ", face.first + worst, " at ",
-      at(face.position.row(worst)),
+      at(problem.position.row(face.first + worst)),
       ", which carries a force, the normals of both bodies differ by ", turn, " rad (",
       in_degrees * turn, " degrees), which is not small compared with the friction ", f,
       count > 1 ? sentence(" (also at ", count - 1, " more)") : "",
@@ -107,7 +110,8 @@ void say_held(const Reduction &reduction, const InterfaceReport &face,
               const std::vector<bool> &bears, std::vector<std::string> &said)
 {
    const ReducedProblem &problem = reduction.problem;
-   for (Index i = 0; i < face.nodes; ++i)
+   // In space frames are turned onto supports, and reports have no tangents of lines.
+   for (Index i = 0; i < face.tangent.rows(); ++i)
    {
       const Index node = face.first + i;
       const Vector2d tangent = face.tangent.row(i);
