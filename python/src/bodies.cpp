@@ -564,10 +564,10 @@ void bind_stiffness(nb::module_ &m)
          arg("nodes"),
          "The trace of a body in space.\n\n"
          "nodes: the name of a set, numbers of nodes, or a mask over `nodes`: all outer faces "
-         "of elements whose nodes are among them. Or (faces, 3 or 4) nodes, the faces "
-         "themselves, where no elements are known; (faces, 6, 8 or 9) with the middles of "
-         "edges and faces after the corners; (faces, 10 or 16) of order 3, with two nodes of "
-         "each edge, at its thirds, after the corners, and then those inside.")
+         "of elements whose nodes are among them. Where no elements are known it is an array "
+         "of the faces themselves, a row each. These have 3 or 4 corners, which come first. "
+         "With 6, 8 or 9 nodes the middles of edges and faces follow. With 10 or 16 nodes two "
+         "of each edge follow, at its thirds, and then those inside.")
       .def("__repr__", &brief);
 
    m.def(
