@@ -55,6 +55,44 @@ void check_start(const ReducedProblem &problem, const ContactState &state,
            history.piece(history.pieces() - 1).end);
 }
 
+/// A saved state must obey the laws of the problem. InputError with the interface, where a gap
+/// or a friction has been changed.
+void check_laws_at_start(const ReducedProblem &problem, const ContactState &state)
+{
+   const Eigen::Index n = problem.nodes();
+   if (n == 0) { return; }
+   const double tiny = 1e-6 * std::max(state.peak_force, state.p.cwiseAbs().maxCoeff());
+   const std::string where = "option --load-state: ",
+                     must = ": it must be that of the march that saved the state";
+   for (const ContactChain &chain : problem.chains)
+   {
+      const std::string at =
+         chain.interface.empty() ? "" : " of interface '" + chain.interface + "'";
+      for (Eigen::Index i = chain.first; i < chain.first + chain.nodes; ++i)
+      {
+         const double opening = state.w[i] + problem.gap[i],
+                      force = problem.C()(i, i) * opening;
+         require(force > -tiny && (!closed(state.status[i]) || force < tiny), where, "the gap",
+                 at, " has been changed, by which a node ",
+                 force > 0 ? "that is closed in the saved state would be open by "
+                           : "would overlap by ",
+                 message_text(std::abs(opening)), must);
+         const bool law = std::all_of(problem.held.begin(), problem.held.end(),
+                                      [&](Eigen::Index row) { return row % n != i; });
+         if (!law || !problem.laws.empty() || state.q.size() == 0) { continue; }
+         double q = 0;
+         for (Eigen::Index c = 0; c < problem.components(); ++c)
+         {
+            q = std::hypot(q, state.q[c * n + i]);
+         }
+         require(q <= problem.friction[i] * state.p[i] + tiny, where, "the friction", at,
+                 " has been changed to ", problem.friction[i],
+                 ", and the saved state has a shear of ", message_text(q / state.p[i]),
+                 " times the pressure", must);
+      }
+   }
+}
+
 /// The circle that a run of nodes lies on, if it is one that turns enough to be told from a
 /// straight line.
 struct Circle
@@ -301,6 +339,7 @@ void OwnHistory::begin(const ReducedProblem &problem)
       {
          throw InputError("option --load-state: file '" + load_state_ + "': " + error.what());
       }
+      check_laws_at_start(problem, state);
       LoadHistory expected = history_;
       for (std::size_t b = 0; bolts && b < bolts->bolts().size(); ++b)
       {

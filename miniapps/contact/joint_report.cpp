@@ -32,7 +32,51 @@ std::string kept_name(const JointCase::Bolt &bolt)
    return "bolt " + bolt.name;
 }
 
+/// And where it has been tightened: point of the history and value, one after the other.
+std::string points_name(const JointCase::Bolt &bolt)
+{
+   return "points of bolt " + bolt.name;
+}
+
 } // namespace
+
+std::vector<double> JointReport::tightened_before(std::size_t bolt, double time) const
+{
+   std::vector<double> all;
+   for (const Tightening &one : tightenings_[bolt])
+   {
+      if (one.from >= time) { continue; }
+      all.push_back(one.point);
+      all.push_back(one.value);
+   }
+   return all;
+}
+
+void JointReport::check_tightenings(const ContactState &state) const
+{
+   const auto told = [](const std::vector<double> &all)
+   {
+      std::vector<std::string> words;
+      for (std::size_t k = 0; k + 1 < all.size(); k += 2)
+      {
+         words.push_back("to " + message_text(all[k + 1]) + " at point " +
+                         message_text(all[k]));
+      }
+      return words.empty() ? std::string("nowhere") : listed(words);
+   };
+   for (std::size_t k = 0; k < joint_.bolts.size(); ++k)
+   {
+      const auto found = state.kept.find(points_name(joint_.bolts[k]));
+      if (!joint_.bolts[k].tightened || found == state.kept.end()) { continue; }
+      const std::vector<double> now = tightened_before(k, state.time);
+      require(now == found->second,
+              "option --load-state: the march that saved the state had "
+              "tightened bolt '",
+              joint_.bolts[k].name, "' ", told(found->second), ", and the history tightens it ",
+              told(now), " up to the time of the state, ", state.time,
+              ": up to there it must be the history of that march");
+   }
+}
 
 void JointReport::begin(const OwnHistory &march, const BoltedJoint *bolts)
 {
@@ -47,8 +91,8 @@ void JointReport::begin(const OwnHistory &march, const BoltedJoint *bolts)
       {
          const LoadPiece piece = history.piece(p);
          if (!bolts->tightens(b, history, piece)) { continue; }
-         tightenings_[k].push_back({piece.point + 1, piece.start, piece.end});
          const Index row = bolts->load(b);
+         tightenings_[k].push_back({piece.point + 1, piece.start, piece.end, piece.to[row]});
          if (piece.from[row] != piece.to[row]) { continue; }
          study_.say(text("   point %d of the history (from 0) names bolt '%s', which has this "
                          "value already: it is tightened to it again (without the name its "
@@ -57,6 +101,7 @@ void JointReport::begin(const OwnHistory &march, const BoltedJoint *bolts)
       }
    }
    if (march.state.time == 0) { return; }
+   check_tightenings(march.state);
    for (std::size_t k = 0; k < joint_.bolts.size(); ++k)
    {
       const auto found = march.state.kept.find(kept_name(joint_.bolts[k]));
@@ -80,6 +125,7 @@ void JointReport::keep(ContactState &state) const
       const Range &its = range_[k];
       state.kept[kept_name(joint_.bolts[k])] = {its.load, its.least, its.most,
                                                 its.push, its.tight, its.all_tight};
+      state.kept[points_name(joint_.bolts[k])] = tightened_before(k, state.time);
    }
 }
 

@@ -90,10 +90,14 @@ private:
    struct Tightening
    {
       int point = 0;
-      double from = 0, to = 0;
+      double from = 0, to = 0, value = 0;
    };
    std::vector<std::vector<Tightening>> tightenings_;
    bool is_tightened(std::size_t bolt, double time, double load) const;
+   /// Point and value of each tightening that has begun before a time.
+   std::vector<double> tightened_before(std::size_t bolt, double time) const;
+   /// InputError if the march that saved a state has tightened bolts otherwise.
+   void check_tightenings(const cattaneo::ContactState &state) const;
    /// For a march that continues from a state without values of bolts: its time.
    double known_from_ = 0;
 };

@@ -594,7 +594,18 @@ bool OwnPart::holds_all_of(const std::string &load) const
 {
    if (elastic_ && elastic_->ranks().distributed()) { return false; } // others may not
    const std::vector<int> all = fixed();
-   const std::set<int> held(all.begin(), all.end());
+   std::set<int> held(all.begin(), all.end());
+   if (elastic_)
+   {
+      // Those of a guide move with it where it is free or under a force.
+      for (const BlockMotion &block : elastic_->blocks())
+      {
+         for (const int dof : all)
+         {
+            if (block.motion[dof] != 0) { held.erase(dof); }
+         }
+      }
+   }
    for (const BodyLoad &one : elastic_ ? elastic_->patterns() : nodal_->loads)
    {
       if (one.name != load) { continue; }

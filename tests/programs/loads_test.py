@@ -868,3 +868,60 @@ def test_what_is_at_rest_does_not_depend_on_the_order_of_bodies(run):
     last = sorted({row[0] for row in zones[0]})[-5:]
     alone = [[row[1:] for row in zones[0] if row[0] == time] for time in last]
     assert all(each == alone[0] for each in alone) and len({row[0] for row in alone[0]}) > 1
+
+def test_a_state_is_loaded_by_the_history_that_saved_it(run):
+    """Bolts that were tightened otherwise, a gap or a friction that is not that of the state: each is refused. A bolt that is named
+    with 0 is tightened by the march that goes on, with the same bits as in one march."""
+    case, state = columns_case(run), run.folder / "state.json"
+    case["bolts"]["other"] = {**case["bolts"]["bolt"], "preload": 25}
+    run.case({**case, "history": ["F=0", "bolt=1", "other=0", "F=1"]}, "--save-state", state)
+
+    def refused(changes, history):
+        return run.refused({**changed(case, changes), "history": history}, "--load-state", state)
+
+    then = ["F=0", "bolt=1", "other=0", "F=1", "other=1", "F=2"]
+    for history, said in ((["F=0", "bolt=0.25", "other=0", "F=1", "other=1", "F=2"], "to 1 at point 1, and the history tightens it to 0.25 at point 1"),
+                          (["F=0", "other=0", "other=0", "F=1 bolt=1", "other=1", "F=2"], "to 1 at point 1, and the history tightens it to 1 at point 3"),
+                          (["F=0", "bolt=1", "other=1", "F=1", "F=2"], "bolt 'other' nowhere, and the history tightens it to 1 at point 2")):
+        error = refused({}, history)
+        assert said in error and "option --load-state" in error, error
+    assert "the gap of interface 'joint' has been changed" in refused({"interfaces.joint.gap": 1e-3}, then)
+    whole = run.case({**case, "history": ["F=0", "bolt=1", "F=1", "F=1", "other=1", "F=2"]})
+    got = run.case({**case, "history": then}, "--load-state", state)
+    for one, other in zip(got["bolts"], whole["bolts"]):
+        near(one["force"], other["force"], 1e-9)
+    unnamed = run.refused({**case, "history": ["F=0", "bolt=1", "F=1"]})
+    assert "is never tightened" in unnamed and "'other=0'" in unnamed
+    # A friction that the state cannot have.
+    run.block("pad.mesh", 0, 2, 6, 0, 1, 3)
+    pad = {"bodies": {"pad": body("pad.mesh", None, ["P pressure 3 1", "Q traction 3 0.2 0"])}, "interfaces": {"floor": {"between": ["pad:1"], "friction": 0.5}},
+           "history": ["P=0", "P=1", "Q=1", "Q=0"]}
+    run.case({**pad, "history": ["P=0", "P=1", "Q=1"]}, "--save-state", state)
+    error = run.refused(changed(pad, {"interfaces.floor.friction": 0.1}), "--load-state", state)
+    assert "the friction of interface 'floor' has been changed to 0.1, and the saved state has a shear of" in error, error
+
+
+def test_what_is_said_of_pressing_and_of_guided_bolts(run):
+    """A load that presses and slides at once does press. A bolt whose end is guided, and moves along it, works."""
+    run.block("pad.mesh", 0, 2, 6, 0, 1, 3)
+    case = {"bodies": {"pad": body("pad.mesh", None, ["P traction 3 10 -10"])}, "interfaces": {"floor": {"between": ["pad:1"], "friction": 0.3}},
+            "history": ["P=0", "P=1"]}
+    got = run.case(case, code=2)
+    assert "load 'P' presses too little for the shear that comes at the same time" in got["message"], got["message"]
+    guide = {"on": "3", "x": "held", "y": {"force": "F", "value": 3}, "rotation": "held"}
+    bolted = {"bodies": {"pad": {**body("pad.mesh"), "guides": [guide]}}, "interfaces": {"floor": {"between": ["pad:1"], "friction": 0.3}},
+              "bolts": {"b": {"between": ["pad:3"], "direction": [0, 1], "stiffness": 100, "preload": 10}}, "history": ["F=0", "b=1", "F=1"]}
+    got = run.case(bolted)
+    assert "does nothing" not in got.warned()
+    # The joint diagram: the pad is 2 · 1000 stiff (ν = 0).
+    near(got["bolts"][0]["force"], 10 + 3 * 100 / (100 + 2000), 1e-9)
+
+
+def test_a_contact_without_friction_that_does_not_slide_has_no_direction(run):
+    """Pressed evenly: what is left of slip is round-off."""
+    run.block("pad.mesh", 0, 20, 8, 0, 5, 4)
+    run.block("base.mesh", 0, 20, 8, -5, 0, 4)
+    case = {"bodies": {"pad": body("pad.mesh", None, ["P pressure 3 10"], 1000, 0.3), "base": body("base.mesh", "1:y @0,-5:x", (), 1000, 0.3)},
+            "interfaces": {"flat": face("pad:1", "base:3", 0)}, "history": ["P=0", "P=1"]}
+    got = run.case(case)
+    assert {zone["state"] for zone in got["zones"]} == {"slip"}, got["zones"]

@@ -60,7 +60,7 @@ std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &hi
    const bool ended =
       report.status != FrictionStatus::converged && report.status != FrictionStatus::stopped;
    if (!ended || state.p.size() == 0 || state.p.maxCoeff() > 0) { return ""; }
-   std::vector<std::string> later;
+   std::vector<std::string> later, now;
    for (std::size_t l = 0; l < problem.patterns.size(); ++l)
    {
       const auto row = history.multipliers.row(static_cast<Eigen::Index>(l));
@@ -69,6 +69,10 @@ std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &hi
       // The load grows from the point before this one.
       const Eigen::VectorXd &p = problem.patterns[l].p;
       const bool presses = p.sum() * row.sum() > 1e-9 * p.lpNorm<1>() * row.lpNorm<1>();
+      if (presses && point < row.size() && point > 0 && history.times[point - 1] <= state.time)
+      {
+         now.push_back("'" + problem.patterns[l].name + "'");
+      }
       if (!presses || point == row.size() || point == 0 ||
           history.times[point - 1] <= state.time)
       {
@@ -79,6 +83,12 @@ std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &hi
       later.push_back((bolt ? "bolt '" : "load '") + name +
                       (bolt ? "' is tightened at point " : "' grows on the way to point ") +
                       std::to_string(point));
+   }
+   if (later.empty() && !now.empty() && report.status == FrictionStatus::gross_sliding)
+   {
+      return "load " + listed(now) + (now.size() == 1 ? " presses" : " press") +
+             " too little for the shear that comes at the same time: the bodies must be "
+             "pressed more, or have more friction";
    }
    return later.empty() ? "no load presses the bodies together, and no other load comes later: "
                           "does a load have the "

@@ -46,8 +46,10 @@ std::vector<NodeState> settled_states(const ReducedProblem &problem, const Conta
    const bool has_slip = problem.components() > 0, plane = problem.components() == 1;
    // Without friction, a contact that symmetry keeps at rest still moves by the errors of
    // integrals and coordinates.
-   const double least_way = n > 0 ? 1e-8 * state.displacements().cwiseAbs().maxCoeff() : 0;
-   const bool directed = plane && (way.array() > least_way).any();
+   const VectorXd least_way =
+      n > 0 ? VectorXd(least.cwiseMax(1e-8 * state.displacements().cwiseAbs().maxCoeff()))
+            : VectorXd();
+   const bool directed = plane && (way.array() > least_way.array()).any();
    std::vector<bool> held(n, false); // no law of friction holds for it
    for (Index row : problem.held) { held[row % n] = true; }
    for (Index i = 0; i < n; ++i)
@@ -58,7 +60,7 @@ std::vector<NodeState> settled_states(const ReducedProblem &problem, const Conta
       const bool free = has_slip && problem.friction[i] == 0 && !held[i];
       if (free)
       {
-         const bool back = way[i] > least_way && state.v[i] < state.slip_origin[i];
+         const bool back = way[i] > least_way[i] && state.v[i] < state.slip_origin[i];
          node = !directed ? NodeState::slip
                 : back    ? NodeState::backward_slip
                           : NodeState::forward_slip;

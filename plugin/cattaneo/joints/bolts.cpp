@@ -148,8 +148,24 @@ int BoltedJoint::last_tightening(const LoadHistory &history) const
       require(forces.minCoeff() >= 0, where, "is tightened to ", forces.minCoeff(),
               ", must not be negative");
       require(forces[0] == 0, where, "is ", forces[0], " at the first point, must be 0");
-      require(forces.maxCoeff() > 0, where, "is never tightened: a point must name it, as '",
-              bolts_[b].load, "=1', or it must be left out");
+      bool named = false;
+      for (int point = 1; point < forces.size(); ++point)
+      {
+         named = named || history.states(point, load(b));
+      }
+      require(forces.maxCoeff() > 0 || (named && history.cycle_start < 0), where,
+              "is never tightened: a point must name it, as '", bolts_[b].load,
+              "=1', or it must be left out",
+              history.cycle_start < 0
+                 ? " (or its name must stand there, as '" + bolts_[b].load +
+                      "=0', if a march tightens it that goes on from "
+                      "the state of this one)"
+                 : "");
+      if (forces.maxCoeff() == 0)
+      {
+         last = history.pieces() - 1; // all parts of the history are without it
+         continue;
+      }
       require(forces[forces.size() - 1] > 0, where,
               "is loosened at the last point, must be tightened there");
       for (int k = 0; k < history.pieces(); ++k)

@@ -58,8 +58,11 @@ public:
        problem(). The march ends when a bolt would push: its status is `stopped`, and the state
        and `event_time` are those at which the bolt's force is zero.
 
-       InputError if a bolt is never tightened, is loosened at the end, is tightened to a
-       negative force, or is tightened or named within the cycle. */
+       A march need not tighten a bolt that a point after the first names with a force of 0, and
+       none with more: a later march tightens it, which continues from the state of this one.
+
+       InputError if another bolt is never tightened, or if a bolt is loosened at the end, is
+       tightened to a negative force, or is tightened or named within the cycle. */
    MarchReport march(const LoadHistory &history, ContactState &state,
                      const MarchSettings &settings = {},
                      const MarchObserver &observer = {}) const;
