@@ -61,7 +61,7 @@ void judge_planes(Study &study, const Pad &pad, const PadContact &closed_form,
    {
       Pad other = pad;
       other.nodes = pad.order * ((pad.nodes - 1) / pad.order * eighths / 8) + 1;
-      coarser.push_back(solve(study, other, closed_form));
+      coarser.push_back(solve(study, other, closed_form, false));
    }
    report_critical_planes(study, pad, solved, coarser, depth, weights);
 }
@@ -77,7 +77,7 @@ void assess_pad(Study &study)
    study.options().group("The pad");
    study.option(
       &pad.kind, "pad",
-      "hertz (cylinder on flat), flat-rounded, fe (either by finite elements), or kn (K_N "
+      "hertz (cylinder on flat), flat-rounded, fe (either, solved on half-planes), or kn (K_N "
       "and K_T given).",
       {"hertz", "flat-rounded", "fe", "kn"});
    study.option(&pad.radius, "radius", "Radius of the pad or of its edges, mm.");
@@ -198,9 +198,9 @@ void assess_pad(Study &study)
    std::optional<SolvedPad> solved;
    if (pad.kind == "fe")
    {
-      solved = solve(study, pad, contact);
-      // Within a spacing of an edge the mesh resolves neither the tractions nor the peak of the
-      // stress. At depths beyond the width of the contact these stresses vanish.
+      solved = solve(study, pad, contact, true);
+      // Nearer to an edge than a spacing the mesh has neither the tractions nor the peak of the
+      // stress, and deeper than the contact is wide there is nothing left of them.
       require(std::isnan(depth) || (depth >= solved->spacing && depth <= solved->half_width),
               "--averaging-depth is ", depth,
               " mm, must be from the spacing of the contact nodes, ", solved->spacing,
@@ -210,7 +210,27 @@ void assess_pad(Study &study)
       contact = solved->in_place_of(contact);
    }
    const JudgedEdge judged = judge(pad, contact, criteria);
-   print_page(study, pad, contact, judged, criteria);
+   const SolvedPad *const known = solved ? &*solved : nullptr;
+   print_page(study, pad, known, contact, judged, criteria);
+   if (solved || pad.kind == "kn" || !study.keeps_panels() || has_closed_tractions(pad))
+   {
+      draw_tractions(study, pad, known);
+   }
+   else // no closed form: they are solved for, to be drawn
+   {
+      try
+      {
+         const SolvedPad drawn = solve(study, pad, closed_form, false);
+         draw_tractions(study, pad, &drawn);
+         study.say(
+            "\n   Figures of pressure, shear and stress along the surface are of the contact "
+            "as --pad fe solves it.");
+      }
+      catch (const InputError &error)
+      {
+         study.say(std::string("\n   No figure of the tractions: ") + error.what());
+      }
+   }
    if (solved)
    {
       print_solution(study, *solved);

@@ -66,11 +66,34 @@ std::vector<AtNode> at_nodes(const ElasticBody &body, const VectorXd &values)
    return all;
 }
 
-/// The components that supports hold, without those that a load prescribes.
-std::vector<AtNode> supports(const ElasticBody &body)
+std::vector<const GuidedPart *> guides_of(const Scene &scene, std::size_t k)
 {
+   std::vector<const GuidedPart *> guides;
+   for (const GuidedPart &guide : scene.guides)
+   {
+      if (guide.body == static_cast<int>(k)) { guides.push_back(&guide); }
+   }
+   return guides;
+}
+
+/// The nodes that a guide moves.
+std::vector<AtNode> nodes_of(const ElasticBody &body, const GuidedPart &guide)
+{
+   VectorXd moved = VectorXd::Zero(body.space().GetTrueVSize());
+   for (int dof : guide.dofs) { moved[dof] = 1; }
+   return at_nodes(body, moved);
+}
+
+/// The components that are held, not those that a load or a guide moves.
+std::vector<AtNode> supports(const Scene &scene, std::size_t k)
+{
+   const ElasticBody &body = *scene.bodies[k];
    VectorXd held = VectorXd::Zero(body.space().GetTrueVSize());
    for (int dof : body.essential_dofs()) { held[dof] = 1; }
+   for (const GuidedPart *guide : guides_of(scene, k))
+   {
+      for (int dof : guide->dofs) { held[dof] = 0; }
+   }
    for (const BodyLoad &load : body.patterns())
    {
       if (load.control == Control::force) { continue; }
@@ -119,13 +142,14 @@ std::string heading(const Reduction &reduction, std::size_t k)
 
 void list_bodies(Study &study, const Scene &scene)
 {
+   const std::string length = study.units.of(0, 1);
    ResultTable &bodies = study.table("bodies", {{"body", "body"},
                                                 {"elements", "elements"},
                                                 {"dofs", "dofs"},
-                                                {"x_from", "x from", "%.5g"},
-                                                {"x_to", "to", "%.5g"},
-                                                {"y_from", "y from", "%.5g"},
-                                                {"y_to", "to", "%.5g"},
+                                                {"x_from", "x from" + length, "%.5g"},
+                                                {"x_to", "to" + length, "%.5g"},
+                                                {"y_from", "y from" + length, "%.5g"},
+                                                {"y_to", "to" + length, "%.5g"},
                                                 {"held_x", "held in x"},
                                                 {"held_y", "in y (nodes)"}});
    const Reduction &reduction = scene.reduction;
@@ -136,13 +160,15 @@ void list_bodies(Study &study, const Scene &scene)
       Frame frame;
       for (int i = 0; i < place.Width(); ++i) { frame.hold({place(0, i), place(1, i)}); }
       int held[2] = {0, 0};
-      for (const AtNode &support : supports(body))
+      for (const AtNode &support : supports(scene, k))
       {
          for (int c : {0, 1}) { held[c] += support.value[c] != 0; }
       }
       study.row(bodies,
-                {heading(reduction, k), scene.meshes[k]->GetNE(), body.dofs(), frame.low[0],
-                 frame.high[0], frame.low[1], frame.high[1], held[0], held[1]});
+                {heading(reduction, k), scene.meshes[k]->GetNE(), body.dofs(),
+                 settled(frame.low[0], frame.size()), settled(frame.high[0], frame.size()),
+                 settled(frame.low[1], frame.size()), settled(frame.high[1], frame.size()),
+                 held[0], held[1]});
    }
 }
 
@@ -169,13 +195,14 @@ void list_lines(Study &study, const Reduction &reduction)
 
 void list_loads(Study &study, const Scene &scene)
 {
-   ResultTable &loads = study.table("loads", {{"load", "load"},
-                                              {"body", "body"},
-                                              {"kind", "kind"},
-                                              {"nodes", "nodes"},
-                                              {"x", "sum x", "%.6g"},
-                                              {"y", "sum y", "%.6g"},
-                                              {"moment", "moment", "%.6g"}});
+   ResultTable &loads =
+      study.table("loads", {{"load", "load"},
+                            {"body", "body"},
+                            {"kind", "kind"},
+                            {"nodes", "nodes"},
+                            {"x", "sum x" + study.units.total(0), "%.6g"},
+                            {"y", "sum y" + study.units.total(0), "%.6g"},
+                            {"moment", "moment" + study.units.total(1), "%.6g"}});
    const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
@@ -255,6 +282,41 @@ void draw_boundary(Panel &panel, const std::string &item, mfem::Mesh &mesh)
    }
 }
 
+/// All edges of the elements, straight between their vertices.
+void draw_mesh(Study &study, const Scene &scene, Frame frame)
+{
+   constexpr int most_edges = 20000;
+   int edges = 0;
+   for (const auto &mesh : scene.meshes) { edges += mesh->GetNEdges(); }
+   if (edges > most_edges)
+   {
+      study.say(
+         text("   the mesh has %d edges: more than %d are not drawn", edges, most_edges));
+      return;
+   }
+   frame.round();
+   const bool about_axis = scene.bodies[0]->formulation() != Formulation::plane;
+   const std::string unit = study.units.of(0, 1);
+   Panel &panel = study.panel(Panel::Kind::scene, "mesh", "Meshes",
+                              (about_axis ? "r" : "x") + unit, (about_axis ? "z" : "y") + unit);
+   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+   {
+      const mfem::Mesh &mesh = *scene.meshes[k];
+      const std::string &name = scene.reduction.bodies[k].name;
+      const std::string item = name.empty() ? heading(scene.reduction, k) : "body " + name;
+      mfem::Array<int> ends;
+      for (int e = 0; e < mesh.GetNEdges(); ++e)
+      {
+         mesh.GetEdgeVertices(e, ends);
+         const double *a = mesh.GetVertex(ends[0]), *b = mesh.GetVertex(ends[1]);
+         panel.item(item, {a[0], a[1]}, {b[0] - a[0], b[1] - a[1]});
+      }
+   }
+   const double margin = 0.05 * frame.size();
+   panel.limit("x", frame.low[0] - margin, frame.high[0] + margin);
+   panel.limit("y", frame.low[1] - margin, frame.high[1] + margin);
+}
+
 void draw_nodes(Panel &panel, const Reduction &reduction)
 {
    for (std::size_t k = 0; k < reduction.bodies.size(); ++k)
@@ -298,9 +360,34 @@ void draw_normals(Panel &panel, const Reduction &reduction, double arrow)
    }
 }
 
-void draw_loads(Panel &panel, const ElasticBody &body, double arrow)
+/// The nodes of a guide, the forces at its centre, and where they turn it.
+void draw_guide(Panel &panel, const ElasticBody &body, const GuidedPart &guide, double arrow)
 {
-   for (const AtNode &support : supports(body))
+   for (const AtNode &at : nodes_of(body, guide))
+   {
+      panel.item("guide " + guide.name, at.position, {0, 0});
+   }
+   for (const GuidedPart::Load &load : guide.loads)
+   {
+      const double size = load.along.norm();
+      if (size == 0)
+      {
+         panel.item("turn " + load.name, guide.centre, {0, 0});
+         continue;
+      }
+      const Vector2d shown = load.along / size * arrow;
+      panel.item("load " + load.name, guide.centre - shown, shown);
+   }
+}
+
+void draw_loads(Panel &panel, const Scene &scene, std::size_t k, double arrow)
+{
+   const ElasticBody &body = *scene.bodies[k];
+   for (const GuidedPart *guide : guides_of(scene, k))
+   {
+      draw_guide(panel, body, *guide, arrow);
+   }
+   for (const AtNode &support : supports(scene, k))
    {
       if (support.value[0] != 0) { panel.item("held x", support.position, {0, 0}); }
       if (support.value[1] != 0) { panel.item("held y", support.position, {0, 0}); }
@@ -329,16 +416,22 @@ Panel &draw(Study &study, const Scene &scene, const std::string &name, const std
 {
    frame.round();
    const bool about_axis = scene.bodies[0]->formulation() != Formulation::plane;
-   Panel &panel = study.panel(Panel::Kind::scene, name, title, about_axis ? "r" : "x",
-                              about_axis ? "z" : "y");
+   const std::string unit = study.units.of(0, 1);
+   Panel &panel = study.panel(Panel::Kind::scene, name, title, (about_axis ? "r" : "x") + unit,
+                              (about_axis ? "z" : "y") + unit);
    const double margin = 0.12 * frame.size();
    const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
-      draw_boundary(panel, heading(reduction, k), *scene.meshes[k]);
+      const std::string &name = reduction.bodies[k].name;
+      draw_boundary(panel, name.empty() ? heading(reduction, k) : "body " + name,
+                    *scene.meshes[k]);
    }
    draw_nodes(panel, scene.reduction);
-   for (const auto &body : scene.bodies) { draw_loads(panel, *body, 0.8 * margin); }
+   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+   {
+      draw_loads(panel, scene, k, 0.8 * margin);
+   }
    panel.limit("x", frame.low[0] - margin, frame.high[0] + margin);
    panel.limit("y", frame.low[1] - margin, frame.high[1] + margin);
    return panel;
@@ -370,7 +463,9 @@ void show(Study &study, const Scene &scene)
                                                   : "Contact, normals into the slaves",
            contact);
    draw_normals(panel, scene.reduction, 0.06 * contact.size());
-   Panel &gaps = study.lines("gap", "Initial gap", "arc length", "gap");
+   draw_mesh(study, scene, all);
+   Panel &gaps = study.lines("gap", "Initial gap", "arc length" + study.units.of(0, 1),
+                             "gap" + study.units.of(0, 1));
    for (const InterfaceReport &face : scene.reduction.interfaces)
    {
       if (face.tied) { continue; }

@@ -35,8 +35,6 @@ void HalfPlanes::validate() const
 {
    require(!grid.empty() || (nodes >= 9 && (nodes - 1) % order == 0), "option --nodes is ",
            nodes, ", must be at least 9 and one more than a multiple of the order ", order);
-   require(domain > 0 || !(bulk || bulk_pad),
-           "bulk stress needs a meshed block: option --domain must give its size");
    check_growth(growth);
    require(half_width > 0 && load > 0, "the half-width ", half_width, " and the load ", load,
            " of the contact must be positive");
@@ -58,6 +56,8 @@ Scene make_scene(const HalfPlanes &options)
       pad.depth = specimen.depth = 1e4 * contact.back();
       pad.normal = {0, 1};
       pad.forces = {{"P", {0, -options.load}}, {"Q", {options.load, 0}}};
+      if (options.bulk) { specimen.bulk = {{"bulk", 1.0}}; }
+      if (options.bulk_pad) { pad.bulk = {{"bulk pad", 1.0}}; }
       scene.reduction = reduce(condense(pad, contact, options.order), specimen);
       return scene;
    }

@@ -174,7 +174,41 @@ std::vector<std::string> interfaces(const ReducedProblem &problem)
    return names;
 }
 
-/// The zones of a march; in a long march only those of every second increment, every fourth, ….
+/** Where the line of an interface is straight along an axis its places are named by x or y.
+    Says so of a panel whose places are arc lengths s: "NAME=x,way,start", x = start + way s. */
+void say_straight(Panel &panel, const ReducedProblem &problem, const std::string &interface,
+                  bool about_axis)
+{
+   std::vector<Eigen::Index> nodes;
+   for (const ContactChain &chain : problem.chains)
+   {
+      if (chain.interface != interface) { continue; }
+      for (Eigen::Index i = 0; i < chain.nodes; ++i) { nodes.push_back(chain.first + i); }
+   }
+   if (nodes.size() < 2 || problem.position.rows() != problem.nodes() ||
+       problem.position.cols() != 2)
+   {
+      return;
+   }
+   const Eigen::MatrixX2d places = problem.position(nodes, Eigen::all);
+   const VectorXd arc = problem.arc_length(nodes);
+   const double size = (places.colwise().maxCoeff() - places.colwise().minCoeff()).maxCoeff();
+   for (const int axis : {0, 1})
+   {
+      const VectorXd along = places.col(axis), other = places.col(1 - axis);
+      const double way = along[along.size() - 1] > along[0] ? 1 : -1,
+                   start = along[0] - way * arc[0];
+      if ((along.array() - way * arc.array() - start).abs().maxCoeff() < 1e-9 * size &&
+          other.maxCoeff() - other.minCoeff() < 1e-9 * size)
+      {
+         panel.say("straight", text("%s=%c,%g,%.12g", interface.c_str(),
+                                    about_axis ? "rz"[axis] : "xy"[axis], way, start));
+         return;
+      }
+   }
+}
+
+/// The zones of a march, of a long one those of every second increment, every fourth, ….
 class ZonesInTime
 {
 public:
@@ -449,6 +483,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
                       one ? "Zones in time" : "Zones in time of " + name, "time",
                       "arc length" + study_.units.of(0, 1));
       diagrams[name] = &diagram;
+      say_straight(diagram, problem, name, about_axis);
       if (!goes_on || study_.csv().empty()) { continue; }
       zones_in_time.read(name, study_.csv() + "_" + diagram.name() + ".csv", state.time);
    }
@@ -616,6 +651,7 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
    Panel &drawn =
       study_.lines("tractions", "Pressure, and shear over f (dashed)",
                    "arc length" + study_.units.of(0, 1), "p, q/f" + study_.units.of(1, -2));
+   if (names.size() > 1) { drawn.say("apart", "interfaces"); }
    for (const std::string &interface : names)
    {
       Eigen::Index first = problem.nodes(), end = 0;
@@ -625,6 +661,7 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
          first = std::min(first, chain.first);
          end = std::max(end, chain.first + chain.nodes);
       }
+      say_straight(drawn, problem, interface, about_axis);
       drawn.add_tractions(names.size() > 1 ? interface : text("time %g", state.time),
                           problem.arc_length, problem, state, first, end - first);
    }

@@ -11,14 +11,33 @@
 namespace miniapp
 {
 
-/// The bodies of a study and their reduction. The bodies must live as long as the reduction is
-/// used for fields.
+/// A part of a body that moves like a rigid block, and the loads that move it: their forces
+/// stand at no node.
+struct GuidedPart
+{
+   struct Load
+   {
+      std::string name;
+      bool force = true;           ///< otherwise a displacement or an angle
+      Eigen::Vector2d along{0, 0}; ///< the force or the displacement
+      double moment = 0;           ///< about the centre, or the angle
+   };
+   int body = 0;
+   std::string name;
+   std::vector<int> dofs; ///< those of its nodes
+   Eigen::Vector2d centre{0, 0};
+   std::vector<Load> loads;
+};
+
+/// The bodies of a study and what they are reduced to. The bodies must live as long as the
+/// reduction is used for fields.
 struct Scene
 {
    std::vector<std::unique_ptr<mfem::Mesh>> meshes;
    std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
    std::vector<std::unique_ptr<cattaneo::ElasticBody>> torsion; ///< on the same meshes, or none
    cattaneo::Reduction reduction;
+   std::vector<GuidedPart> guides;
    int dofs = 0;                  ///< of all bodies
    std::vector<double> thickness; ///< of each body, by which its forces grow; empty: 1
 

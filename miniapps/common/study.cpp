@@ -227,7 +227,7 @@ void Study::value(const std::string &key, double x, const std::string &label, do
    if (label.empty()) { return; }
    std::string line =
       "   " + padded(label, 40) + " " + (std::isfinite(x) ? text("%.6g", x) : "-");
-   values_.push_back({{"label", label}, {"value", x}, {"unit", unit}});
+   values_.push_back({{"key", key}, {"label", label}, {"value", x}, {"unit", unit}});
    if (error > 0)
    {
       line += " ± " + error_text(error) + " (estimate)";
@@ -441,19 +441,21 @@ ordered_json Study::shown(const std::vector<Sheet> &sheets) const
    {
       if (!film.empty()) { marches.push_back(film.json()); }
    }
-   return {{"study", name_},
-           {"event", results.contains("event_loads")
-                        ? event_text(results["event_time"], results["event_loads"])
-                        : ""},
-           {"units", {{"length", units.of(0, 1)}, {"pressure", units.of(1, -2)}}},
-           {"options", options_.values()},
-           {"lead", lead},
-           {"values", values_},
-           {"tables", tables},
-           {"panels", panels},
-           {"marches", marches},
-           {"more_marches", more_films_},
-           {"sketch", sketch}};
+   return {
+      {"study", name_},
+      {"event", results.contains("event_loads")
+                   ? event_text(results["event_time"], results["event_loads"])
+                   : ""},
+      {"units",
+       {{"length", units.of(0, 1)}, {"pressure", units.of(1, -2)}, {"energy", units.total(1)}}},
+      {"options", options_.values()},
+      {"lead", lead},
+      {"values", values_},
+      {"tables", tables},
+      {"panels", panels},
+      {"marches", marches},
+      {"more_marches", more_films_},
+      {"sketch", sketch}};
 }
 
 void Study::show_results(const ordered_json &run) const

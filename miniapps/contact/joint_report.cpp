@@ -282,6 +282,8 @@ void JointReport::note(const ContactState &state, int cycle)
             all->erase(all->begin(), all->begin() + most_drawn);
          }
       }
+      course.pressing =
+         std::max(course.pressing, std::abs(state.p.segment(face.first, face.nodes).sum()));
       course.slip.push_back(slip);
       course.shear.push_back(shear);
    }
@@ -472,10 +474,16 @@ void JointReport::draw_loops()
                    twists() ? "Torque of each interface over its mean turn"
                             : "Shear force of each interface over its mean slip",
                    twists() ? "mean turn" : "mean slip" + study_.units.of(0, 1),
-                   (twists() ? "-torque" : "-T") + study_.units.total(twists() ? 1 : 0));
+                   (twists() ? "torque that resists" : "shear force that resists, -T") +
+                      study_.units.total(twists() ? 1 : 0));
    for (std::size_t k = 0; k < courses_.size(); ++k)
    {
-      panel.add(reduction_.interfaces[k].name, courses_[k].slip, courses_[k].shear);
+      const Course &course = courses_[k];
+      if (course.shear.empty()) { continue; }
+      // Forces that balance each other leave round-off, which is no loop.
+      const auto [least, most] = std::minmax_element(course.shear.begin(), course.shear.end());
+      if (*most - *least < 1e-6 * course.pressing) { continue; }
+      panel.add(reduction_.interfaces[k].name, course.slip, course.shear);
    }
 }
 

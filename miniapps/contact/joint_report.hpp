@@ -65,7 +65,8 @@ private:
    /// twist, mean rotation and torque.
    struct Course
    {
-      std::vector<double> slip, shear; ///< as many as a picture can show
+      std::vector<double> slip, shear; ///< as far as a picture can show
+      double pressing = 0;             ///< the largest force that pressed
       /// The last point before a cycle begins its loop.
       struct Cycle
       {

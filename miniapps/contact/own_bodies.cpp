@@ -35,6 +35,41 @@ Eigen::Vector2d direction_of(const JointCase &joint, const JointCase::Bolt &bolt
    return apart.normalized();
 }
 
+/// The guided parts of bodies, for those who draw them.
+void note_guides(OwnBodies &own, const JointCase &joint)
+{
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
+   {
+      const HeldBody &held = own.held[b];
+      if (held.place.empty()) { continue; } // on several ranks
+      for (const JointCase::Body::Guided &each : joint.bodies[b].guides)
+      {
+         GuidedPart part{static_cast<int>(b), each.on, {}, {0, 0}, {}};
+         for (const Holding &one : held.holdings)
+         {
+            if (one.kind == "guide" && one.name == each.on) { part.dofs = one.dofs; }
+         }
+         Eigen::AlignedBox2d box;
+         for (int dof : part.dofs) { box.extend(held.place[dof]); }
+         if (each.guide.centre)
+         {
+            part.centre = {(*each.guide.centre)[0], (*each.guide.centre)[1]};
+         }
+         else if (!box.isEmpty()) { part.centre = box.center(); }
+         const Guide::Along *const ways[] = {&each.guide.x, &each.guide.y,
+                                             &each.guide.rotation};
+         for (int way : {0, 1, 2})
+         {
+            if (ways[way]->load.empty()) { continue; }
+            GuidedPart::Load load{ways[way]->load, ways[way]->motion == Guide::Motion::force};
+            (way == 2 ? load.moment : load.along[way]) = ways[way]->value;
+            part.loads.push_back(load);
+         }
+         own.scene.guides.push_back(part);
+      }
+   }
+}
+
 } // namespace
 
 OwnBodies make_own_bodies(const JointCase &joint)
@@ -146,6 +181,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
    if (twists) { own.scene.reduction.add_torsion(condensed_twisting(joint, parts)); }
    complete(own, joint, lines);
    for (const OwnPart &part : parts) { own.held.push_back(part.held()); }
+   note_guides(own, joint);
    std::vector<SmoothSides> sides;
    for (const OwnPart &part : parts) { sides.push_back(part.sides()); }
    note_smooth_sides(joint, own.scene.reduction, sides);

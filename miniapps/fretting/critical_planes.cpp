@@ -6,6 +6,7 @@
 #include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cmath>
 #include <deque>
+#include <memory>
 
 namespace miniapp
 {
@@ -20,12 +21,12 @@ namespace
 struct NamedCriterion
 {
    PlaneCriterion criterion;
-   const char *key, *name;
+   const char *key, *name, *unit;
 };
 constexpr NamedCriterion named_criteria[] = {
-   {PlaneCriterion::findley, "findley", "Findley"},
-   {PlaneCriterion::smith_watson_topper, "smith_watson_topper", "Smith–Watson–Topper"},
-   {PlaneCriterion::fatemi_socie, "fatemi_socie", "Fatemi–Socie"}};
+   {PlaneCriterion::findley, "findley", "Findley", "MPa"},
+   {PlaneCriterion::smith_watson_topper, "smith_watson_topper", "Smith–Watson–Topper", "MPa"},
+   {PlaneCriterion::fatemi_socie, "fatemi_socie", "Fatemi–Socie", "strain"}};
 
 /// The specimen, a half-plane below its surface, at the instants of the cycle.
 class Specimen
@@ -53,6 +54,9 @@ public:
          bulk_.push_back(instant.bulk);
       }
    }
+
+   /// σ_xx on the surface at the last instant, which is the peak.
+   double at_surface(double x) const { return fields_.back().at({x, 0}).xx + bulk_.back(); }
 
    /// The mean of the stresses between the surface and a depth.
    StressCycle averaged(double x, double depth) const
@@ -110,6 +114,12 @@ std::vector<double> places_along(double depth)
 
 } // namespace
 
+std::function<double(double)> surface_stress(const Pad &pad, const SolvedPad &solved)
+{
+   const auto specimen = std::make_shared<Specimen>(pad, solved, solved.cycle.size());
+   return [specimen](double x) { return specimen->at_surface(x); };
+}
+
 void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solved,
                             const std::vector<SolvedPad> &coarser, double depth,
                             const PlaneWeights &weights)
@@ -131,7 +141,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
    }
    ResultTable &along = study.table("planes", columns);
    along.draw("Critical planes along the surface", "x", "x / a", curves,
-              "share of what a plain specimen endures");
+              "share of the plain limit");
    const auto plane_of = [&](std::size_t c, const StressCycle &cycle)
    {
       CriticalPlane plane =
@@ -158,6 +168,9 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
    ResultTable &table =
       study.table("critical_planes", {{"criterion", "           criterion"},
                                       {"edge", "    edge"},
+                                      {"value", "value", "%.4g"},
+                                      {"limit", "its limit", "%.4g"},
+                                      {"unit", "unit"},
                                       {"share", "of the limit", "%.4g"},
                                       {"error_estimate", "± (estimate)", "%.1g"},
                                       {"x", "at x / a", "%.3f"},
@@ -193,6 +206,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
          }
          const bool trailing = !right == (pad.shear >= 0);
          study.row(table, {named_criteria[c].name, trailing ? "trailing" : "leading",
+                           most.value * limits[c], limits[c], named_criteria[c].unit,
                            most.value, error, x, most.angle * 180 / M_PI});
       }
    }

@@ -2,10 +2,15 @@
 
 #include "fretting/pad.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace miniapp
 {
+
+/// σ_xx on the surface of the specimen of a solved pad at peak load, MPa over x in mm: that of
+/// a half-plane under the computed tractions, and the bulk stress.
+std::function<double(double)> surface_stress(const Pad &pad, const SolvedPad &solved);
 
 /** Criteria on critical planes along the specimen's surface over the steady cycle of a solved
     pad, each as a share of the endurance of a plain specimen: a table `planes`, its figure, and

@@ -1,5 +1,6 @@
 #include "fretting/fretting_figures.hpp"
 
+#include "fretting/critical_planes.hpp"
 #include "fretting/hertz_surface.hpp"
 
 #include <algorithm>
@@ -63,32 +64,53 @@ void mark(Panel &panel, const std::string &name, double x, double y)
    panel.point(name, x, y, "star");
 }
 
-/// The actions on the specimen at peak load, before the scaled curves.
-void draw_tractions(Study &study, const Pad &pad)
+} // namespace
+
+bool has_closed_tractions(const Pad &pad)
 {
-   const HertzSurface at(pad);
-   if (!at.valid()) { return; }
-   const double a = at.half_width;
-   Panel &panel = study.lines("tractions", "On the specimen at peak load", "x, mm", "MPa");
-   std::vector<double> x, p, q, stress;
-   for (int i = -1000; i <= 1000; i++)
-   {
-      x.push_back(2 * a * i / 1000);
-      p.push_back(at.pressure(x.back()));
-      q.push_back(at.shear(x.back()));
-      stress.push_back(at.stress(x.back()));
-   }
-   panel.add("pressure p", x, p);
-   panel.add("shear q", x, q);
-   panel.add("stress σ_xx", x, stress);
-   const auto slip = [&](double from, double to, const char *word)
-   { panel.say("shade", text("%.9g,%.9g,%s", from, to, word)); };
-   slip(-a, at.shift - at.stick, "slip");
-   slip(at.shift + at.stick, a, "slip");
+   return pad.kind == "hertz" && HertzSurface(pad).valid();
 }
 
-/// Pressure of a flat pad with round edges, and the pressure of its edge field (thesis appendix
-/// A).
+void draw_tractions(Study &study, const Pad &pad, const SolvedPad *solved)
+{
+   const HertzSurface at(pad);
+   if (!solved && !has_closed_tractions(pad)) { return; }
+   const double a = solved ? solved->half_width : at.half_width;
+   Panel &panel = study.lines("tractions", "On the specimen at peak load", "x [mm]", "MPa");
+   const std::function<double(double)> stress =
+      solved ? surface_stress(pad, *solved) : [&](double x) { return at.stress(x); };
+   std::vector<double> x, p, q, along;
+   constexpr int half = 500;
+   for (int i = -half; i <= half; i++)
+   {
+      x.push_back(2 * a * i / half);
+      p.push_back(at.pressure(x.back()));
+      q.push_back(at.shear(x.back()));
+      along.push_back(stress(x.back()));
+   }
+   if (solved)
+   {
+      panel.add("pressure p", solved->positions, solved->pressure);
+      panel.add("shear q", solved->positions, solved->shear);
+   }
+   else
+   {
+      panel.add("pressure p", x, p);
+      panel.add("shear q", x, q);
+   }
+   panel.add("stress σ_xx", x, along);
+   const auto slip = [&](double from, double to)
+   {
+      if (to > from) { panel.say("shade", text("%.9g,%.9g,slip", from, to)); }
+   };
+   slip(-a, solved ? -a + solved->trailing.edge.slip_zone : at.shift - at.stick);
+   slip(solved ? a - solved->leading.edge.slip_zone : at.shift + at.stick, a);
+}
+
+namespace
+{
+
+/// Pressure of a flat pad with round edges, and what its edge makes of it (thesis appendix A).
 void draw_profile(Study &study, const Pad &pad)
 {
    const FlatRoundedContact contact =
@@ -122,10 +144,14 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    const double constraint = out_of_plane_constraint(pad.material.poisson, pad.plane_stress);
    const FrettingReport &r = judged.report;
 
-   if (pad.kind == "hertz" && pad.shear != 0) { draw_tractions(study, pad); }
    Panel &field = study.panel(Panel::Kind::field, "field", "von Mises stress σ_vM/(K_N √d)",
                               "t/d", "depth y/d");
-   for (const double friction : with_design({0.8, 0.6}, f))
+   std::vector<double> frictions_of_field{f}; // its own first
+   for (const double other : {0.8, 0.6})
+   {
+      if (other != f) { frictions_of_field.push_back(other); }
+   }
+   for (const double friction : frictions_of_field)
    {
       const Edge unit{1, 0.5 * friction, friction};
       for (int j = 0; j <= 60; j++)
@@ -191,8 +217,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    {
       ResultTable &transition =
          study.table("transition", {{"sliding"}, {"friction"}}); // not printed
-      transition.draw("Friction above which a Hertz contact is severest at its surface",
-                      "sliding", "Q/fP", {{"friction", "f"}}, "friction coefficient f");
+      transition.draw("Above this friction the surface is severest (Hertz)", "sliding", "Q/fP",
+                      {{"friction", "f"}}, "friction coefficient f");
       for (int i = 4; i <= 20; i++)
       {
          study.row(transition, {0.05 * i, hertz_transition_friction(constraint, 0.05 * i)});
@@ -430,7 +456,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          PadContact contact = calibrate(test.pad);
          if (test.pad.kind == "fe")
          {
-            contact = solve(study, test.pad, contact).in_place_of(contact);
+            contact = solve(study, test.pad, contact, false).in_place_of(contact);
          }
          const FrettingReport r = judge(test.pad, contact, criteria).report;
          used.emplace(test.pad.material.name, test.pad.material);

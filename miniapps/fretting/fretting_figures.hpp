@@ -8,6 +8,13 @@
 namespace miniapp
 {
 
+/// Are the tractions of a pad known in closed form?
+bool has_closed_tractions(const Pad &pad);
+
+/// Tractions and stress on the specimen at peak load in MPa, of a solved pad (not null) or by
+/// closed forms, where there are any.
+void draw_tractions(Study &study, const Pad &pad, const SolvedPad *solved);
+
 /// The universal curves of the near-edge field (thesis figures 2.2 to 2.7) with the design
 /// among them, and its Kitagawa-Takahashi diagram.
 void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,

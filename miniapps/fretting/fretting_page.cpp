@@ -4,6 +4,7 @@
 
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
+#include <cmath>
 
 namespace miniapp
 {
@@ -83,8 +84,9 @@ private:
 
 } // namespace
 
-void print_page(Study &study, const Pad &pad, const PadContact &contact,
-                const JudgedEdge &judged, const FrettingSettings &criteria)
+void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
+                const PadContact &contact, const JudgedEdge &judged,
+                const FrettingSettings &criteria)
 {
    const FrettingReport &r = judged.report;
    const FatigueMaterial &m = pad.material;
@@ -120,15 +122,30 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
               a > 0 ? number(100 * r.slip_zone / a, "% of a") : "");
    page.value("edge_stress", "edge stress", r.edge_stress, "MPa",
               "along the surface, at peak load, by the edge field");
+   if (solved)
+   {
+      const SolvedPad::Stress stress = solved->edge_stress(judged.edge == "trailing");
+      study.results["edge_stress_contact_error_estimate"] = stress.error;
+      page.value("edge_stress_contact", "edge stress, contact", stress.value, "MPa",
+                 "± " + text("%.2g", stress.error) +
+                    " (estimate), the same of the solved contact, with bulk stress");
+   }
    if (pad.kind == "hertz")
    {
       // The edge field leaves out the bulk stress beside K_T, and the width of the contact.
       const HertzSurface surface(pad);
-      const double x = judged.edge == "trailing" ? -contact.half_width : contact.half_width;
+      const double at_edge =
+         judged.edge == "trailing" ? -contact.half_width : contact.half_width;
       if (surface.valid())
       {
-         page.value("edge_stress_contact", "edge stress, contact", surface.stress(x), "MPa",
+         page.value("edge_stress_contact", "edge stress, contact", surface.stress(at_edge),
+                    "MPa",
                     "the same by Hertz and Mindlin, with bulk stress by Nowell and Hills");
+      }
+      else
+      {
+         page.line("edge stress, contact", "-",
+                   "no closed form where an edge slips against the shear: --pad fe");
       }
    }
    page.value("edge_stress_range", "its range", r.edge_stress_range, "MPa",
@@ -197,8 +214,8 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
 
 void print_solution(Study &study, const SolvedPad &solved)
 {
-   study.title(
-      text("6. The finite element contact (%d dofs, %.4g s)", solved.dofs, solved.seconds));
+   study.title(text("6. The solved contact (%ld nodes, %.4g s)",
+                    static_cast<long>(solved.positions.size()), solved.seconds));
    const double middle =
       0.5 * (solved.trailing.edge.position.position + solved.leading.edge.position.position);
    Json &fe = study.results["fe"];

@@ -102,7 +102,7 @@ std::vector<double> flat_grid(double flat, double half_width, int elements, doub
 
 } // namespace
 
-SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
+SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form, bool saves)
 {
    const double flat = std::isnan(pad.flat) ? 0 : pad.flat;
    const Stopwatch watch;
@@ -116,9 +116,6 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    options.load = pad.normal;
    options.bulk = pad.bulk_or_none() != 0;
    options.bulk_pad = pad.bulk_pad != 0;
-   // A larger domain would cost digits of the equilibrium of the bulk stress; the contact does
-   // not depend on it.
-   options.domain = 1e3;
    options.validate();
    const int elements = (pad.nodes - 1) / pad.order;
    options.grid =
@@ -131,7 +128,15 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    problem.gap =
       (problem.position.col(0).array().abs() - flat).max(0).square() / (2 * pad.radius);
 
-   /// The normal load, and a share of the peak of the varying loads.
+   for (LoadPattern &pattern : problem.patterns)
+   {
+      if (pattern.name == "P") { pattern.size = {"force", pad.normal, {0, -1}, "the pad"}; }
+      else if (pattern.name == "Q") { pattern.size = {"force", pad.normal, {1, 0}, "the pad"}; }
+      else { pattern.size = {"stress", 1, {0, 0}, ""}; }
+   }
+   study.units = {"mm", "N", true};
+
+   /// The normal load, and a share of the peak of what varies.
    const auto loads = [&](double share)
    {
       NamedLoads at = {{"P", 1}, {"Q", share * (pad.shear / pad.normal)}};
@@ -180,7 +185,8 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
          std::min(slip_zone(near_edge(edges[e])), edges[e].slip_zone) >= 2 * solved.spacing;
    }
    solved.positions = problem.position.col(0);
-   // One steady cycle, in eighths of its ranges.
+   if (saves) { study.save(problem); }
+   // Once round the steady cycle, in eighths of its ranges.
    for (int k = 1; k <= 16; ++k)
    {
       const double share = std::abs(1 - k / 8.0);
@@ -188,10 +194,43 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
       solved.cycle.push_back(
          {-run.state.q, run.state.p, options.bulk ? run.load("bulk") : 0.0});
    }
+   solved.pressure = tractions(problem, run.state.p); // at the peak again
+   solved.shear = -tractions(problem, run.state.q);
    solved.seconds = watch.seconds();
    solved.counters = study.counters;
    solved.counters -= before;
    return solved;
+}
+
+SolvedPad::Stress SolvedPad::edge_stress(bool trailing) const
+{
+   const double side = trailing ? -1 : 1, least = 0.25 * spacing;
+   const auto with_every = [&](Eigen::Index step)
+   {
+      // Shear over the root of the distance t from the edge, piecewise linear, constant up to
+      // its first node: its integral over t is known.
+      std::vector<double> t{0}, g{0};
+      for (Eigen::Index i = 0; i < positions.size(); i += step)
+      {
+         const Eigen::Index node = trailing ? i : positions.size() - 1 - i;
+         const double away = half_width - side * positions[node];
+         if (pressure[node] <= 0 || away < least) { continue; }
+         t.push_back(away);
+         g.push_back(shear[node] / std::sqrt(away));
+      }
+      if (g.size() > 1) { g[0] = g[1]; }
+      double sum = 0;
+      for (std::size_t i = 1; i < t.size(); ++i)
+      {
+         const double slope = (g[i] - g[i - 1]) / (t[i] - t[i - 1]),
+                      constant = g[i] - slope * t[i];
+         sum += 2 * constant * (std::sqrt(t[i]) - std::sqrt(t[i - 1])) +
+                2.0 / 3 * slope * (std::pow(t[i], 1.5) - std::pow(t[i - 1], 1.5));
+      }
+      return cycle.back().bulk - side * 2 / M_PI * sum;
+   };
+   const double value = with_every(1);
+   return {value, std::abs(value - with_every(2))};
 }
 
 PadContact SolvedPad::in_place_of(PadContact contact) const

@@ -23,7 +23,7 @@ struct Pad
    double load_ratio = -1;
    double friction = none;
    double k_n = none, k_t = none, half_width = none;
-   int nodes = 101, order = 2; ///< of the finite element contact
+   int nodes = 201, order = 2; ///< of the finite element contact
    cattaneo::fretting::FatigueMaterial material;
    bool plane_stress = false;
 
@@ -70,6 +70,7 @@ struct PadInstant
 struct SolvedPad
 {
    Eigen::VectorXd positions;              ///< of the contact nodes along x
+   Eigen::VectorXd pressure, shear;        ///< on the specimen at peak load, MPa
    std::vector<PadInstant> cycle;          ///< the steady one
    double half_width = 0.0, spacing = 0.0; ///< of the contact, and of its nodes at the edges
    PadEdge trailing, leading;
@@ -77,12 +78,23 @@ struct SolvedPad
    double seconds = 0.0;
    cattaneo::Counters counters;
 
-   /// Replaces the intensities of closed forms by the computed ones.
+   struct Stress
+   {
+      double value = 0, error = 0; ///< the error is an estimate
+   };
+   /** σ_xx on the surface of the specimen at an edge of the contact at peak load, with the bulk
+       stress, MPa. Pressure and shear begin like the root of the distance from the edge, and so
+       does the stress: that root is in the integral, but not in the tractions of a mesh. The
+       error is the difference to every second node. */
+   Stress edge_stress(bool trailing) const;
+
+   /// Its intensities in place of the closed forms.
    PadContact in_place_of(PadContact closed_form) const;
 };
 
 /// InputError if it ends before the peak load.
-SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form);
+/// @param saves whether its reduced problem goes to the file of --save
+SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form, bool saves);
 
 /// Results of the finite elements beside closed forms: those of Hertz and Mindlin, with bulk
 /// stress those of Nowell and Hills (as long as both edges slip in the sense of the shear). For

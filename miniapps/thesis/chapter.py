@@ -19,7 +19,7 @@ class Figure:
 
     @property
     def name(self):
-        return self.number if self.number.startswith("Table") else "Appendix A" if self.number == "A" else "Figure " + self.number
+        return self.number if self.number.startswith("Table") else "Appendix " + self.number if self.number in "ABCD" else "Figure " + self.number
 
     def comparisons(self, runs):
         """Rows of references of its runs, each once."""

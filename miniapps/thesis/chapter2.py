@@ -19,7 +19,7 @@ TESTS = {"a": (f"fretting --material Al --records {DATA}.csv", "aluminium alloy,
          "c": (f"fretting --material Ti6Al4V --pad flat-rounded --radius 3 --flat 3 --normal-load 1000 --shear-load 20 --records {DATA}_rounded.csv", "titanium alloy, flat pads with round edges")}
 NICKEL = f"fretting --material Nickel --records {DATA}_nickel.csv"
 TOGETHER = f"fretting --records {DATA}_together.csv"
-REDUCED = TESTS["c"][0] + " -lr 0.5"
+REDUCED = TESTS["c"][0] + " --load-ratio 0.5"
 DEPTHS = (0.05, 0.1, 0.2)
 PLANES = [f"fretting --pad fe --shear-load 50 --bulk 0 --averaging-depth {depth}" for depth in DEPTHS]
 PROOFS = {"2.9": "./test -R 'Measures|EdgeCrack'", "2.10": "./test -R SlipEnergy"}
@@ -80,6 +80,9 @@ def together(run):
     sheet = f.panels(*((run, panel, {"title": title}) for panel, title in (("stress", "2.5: stress at the edge"), ("threshold_tests", "2.8: tests and threshold"),
                                                                           ("mode_two", "2.9: range of K_T"), ("energy", "2.10: frictional energy"))), height=4)
     for axes in sheet.axes:
+        # Limits of several materials, and thresholds of several frictions, are told apart.
+        for k, line in enumerate(line for line in axes.get_lines() if line.get_color() == "#555555"):
+            line.set(color=("#333333", "#B00020", "#7A4FA3")[k % 3], linestyle=f.DASHES[1 + k % 3])
         axes.legend(fontsize=6.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2, frameon=False)
     return sheet
 
@@ -139,7 +142,7 @@ def levels(*all_runs):
 def planes(*all_runs):
     """Criteria on critical planes along the surface, and against the depth that stresses are averaged over, with those of the asymptote."""
     sheet, (along, worst) = f.sheet(2, height=3.8)
-    f.draw(along, all_runs[1], "planes", title=f"averaged over {DEPTHS[1]} mm", y="share of what a plain specimen endures", style="line")
+    f.draw(along, all_runs[1], "planes", title=f"averaged over {DEPTHS[1]} mm", y="share of the plain limit", style="line")
     names = [row["criterion"] for row in all_runs[0].rows("critical_planes") if row["edge"] == "trailing"]
     for k, name in enumerate(names):
         rows = [next(row for row in run.rows("critical_planes") if row["criterion"] == name and row["edge"] == "trailing") for run in all_runs]
@@ -205,7 +208,10 @@ for number, panel, title, text in (
 of Table 2.1. It draws a reduced line without saying how far it reduces. Right: the same tests at R = 0.5, with the most that a reduction is known to be, to the same largest K_II in the cycle; the truth lies between the
 two dashed lines.""", reduced, wrong=wrong, proof=PROOFS[number])
         else:
-            figure(number + letter, f"{title}: {words}", command, INVENTED + text, tests(panel), wrong=wrong, proof=PROOFS.get(number, ""))
+            against = number == "2.8" and letter != "a"  # the numbers of the real tests are in no text at hand
+            figure(number + letter, f"{title}: {words}" + (" (INVENTED tests, which contradict the criterion)" if against else ""), command,
+                   ("*These tests are invented and contradict the criterion: they say nothing for or against it.* " if against else "") + INVENTED + text,
+                   tests(panel), wrong=wrong, proof=PROOFS.get(number, ""))
 figure("2.5 (together)", "All tests in one figure each", TOGETHER, INVENTED + """
 Figures 2.5 and 2.8 to 2.10 with all materials and pads in one, as the thesis has some of its own: the records say material, pad and friction of each test. Limits are of each material, thresholds of each
 friction. The classical stress (first) scatters over materials and pads, which the diagram of 2.7 (second) brings onto one pair of axes.""",

@@ -62,8 +62,10 @@ def slip_of_point(k):
     return drawn
 
 
-CHAPTER.sketch("5.1", "The strip and its loads", """
+CHAPTER.sketch("5.1a", "The strip and its loads", """
 The lower body is a half-plane; the strip goes on to the right until nothing changes any more (100 t).""", sketches.strip)
+figure("5.1b", "The mesh", "plane_receding --check", "The finite elements of the strip, finest where contact ends. The half-plane has none.",
+       lambda run: f.panels((run, "mesh", {"title": ""})))
 figure("5.2", "Traction ratio of the bonded strip", [BONDED, 'plane_receding -obstacle th0 -bonded "1.5 2"'], """
 Strip and half-plane bonded together: the ratio of shear to pressure that friction would have to bear. All curves begin at the corner with Williams' 0.5431.
 For small n that is the most; then a maximum appears inside and rises so quickly that full adhesion

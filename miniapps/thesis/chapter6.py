@@ -47,6 +47,30 @@ def tractions(run):
     return sheet
 
 
+def states(run):
+    """The loads, and the zones of the numbered states."""
+    numbered = [(1, 0, "1"), (1.5, 0.3, "2"), (2, 0.6, "3"), (2.5, 0.3, "4"), (3, 0, "5"), (3.5, 0.3, "6"), (4, 0.6, "7")]
+    sheet, (left, right) = f.sheet(2)
+    f.curves(left, {"P": ([0, 1, 6], [0, 1, 1]), "T": ([0, 1, 2, 3, 4, 5, 6], [0, 0, 0.6, 0, 0.6, 0, 0.6])}, "point of the load history", "load")
+    for at, value, name in numbered:
+        left.plot([at], [value], "o", color="black", markersize=4)
+        left.annotate(name, (at, value), xytext=(4, 5), textcoords="offset points", fontsize=9)
+    rows = run.panel("zones")[1]
+    times = sorted({row["time"] for row in rows})
+    for at, _, name in numbered:
+        time = min(times, key=lambda one: abs(one - at))
+        for row in rows:
+            if row["time"] == time and row["state"] in f.plot.STATES:
+                colour, hatch = f.plot.STATES[row["state"]]
+                right.barh(int(name), row["to"] - row["from"], 0.7, row["from"], facecolor=colour, edgecolor=f.plot.hatch_of(row["state"]), hatch=hatch, linewidth=0.4)
+    shown = [state for state in f.plot.STATES if any(row["state"] == state for row in rows)]
+    f.label(right, "x/t", "state")
+    right.legend(handles=[f.plot.state_patch(state) for state in shown],
+                 fontsize=7, ncol=len(shown), loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
+    right.invert_yaxis()
+    return sheet
+
+
 def extent(run, *_):
     """Changes of contact and stick with the remote load; c is read from the states of nodes and known to half of a spacing."""
     sheet, (axes,) = f.sheet(1, height=3.9)
@@ -105,12 +129,13 @@ def zones(run):
 
 CHAPTER.sketch("6.1", "A receding contact", """
 Two strips that touch all along, and what is left of the contact as soon as they are pressed, however lightly.""", sketches.receding)
-CHAPTER.sketch("6.2", "The joint and its loads", """
+CHAPTER.sketch("6.2a", "The joint and its loads", """
 T acts uniformly on the loaded end of each lap. Nodes in the middle of these ends are held against motion up and down, one of the contact against motion along.""",
                sketches.lap)
-CHAPTER.sketch("6.3", "Load history", "P is applied and held; then T goes between 0 and Tmax. Numbers are the states of figures 6.4 and 6.7.",
-               lambda: sketches.histories({"P": ([0, 1, 6], [1e-9, 1, 1]), "T": ([0, 1, 2, 3, 4, 5, 6], [0, 0, 0.6, 0, 0.6, 0, 0.6])},
-                                          "point of the load history", [(1, 0, "1"), (1.5, 0.3, "2"), (2, 0.6, "3"), (2.5, 0.3, "4"), (3, 0, "5"), (3.5, 0.3, "6"), (4, 0.6, "7")]))
+figure("6.2b", "The mesh", "lap_joint --check", "The finite elements of the laps, finest where contact ends.",
+       lambda run: f.panels((run, "mesh", {"title": ""})))
+figure("6.3", "Load history, and the states of the contact", joint(0.04, 0.2) + " -spacing 0.0025", """
+P is applied and held; then T goes between 0 and Tmax. Numbers are the states of figures 6.4 and 6.7. Right: where the contact sticks, slips and is open in each of them, Tmax = 0.04 P0, f = 0.2.""", states)
 figure("6.4", "Tractions, tension", joint(0.04, 0.2), """
 Pressure and shear over f in the seven states of figure 6.3, Tmax = 0.04 P0, f = 0.2. Tension shrinks the contact; the pressure comes back with T, while the shear leaves
 a pattern with reverse slip at T = 0, and is then the same in every cycle.""", tractions, rows="a0|peak|^a/t|c/a|steady, T = 0.04",

@@ -44,6 +44,60 @@ def critical(run, frictions):
     return sheet
 
 
+def regions(run, _):
+    """The map with its regions: what contact never separates, and where that depends on friction."""
+    sheet = critical(run, [0, 0.5, 0.8])
+    (axes,) = sheet.axes
+    frictionless, bonded = run.rows("critical_load_radius", friction=0), run.rows("bonded_critical")
+
+    def line(rows):
+        return zip(*((row["load_radius"], row["disc_radius"]) for row in rows if row["load_radius"] is not None))
+
+    (c, at), (e, below) = line(frictionless), line(bonded)
+    axes.fill_betweenx(at, c, at, color="#DDEBF5", zorder=0, label="never separates (ABCD)")
+    between = [b for b in at if below[0] <= b <= below[-1]]
+    edge = [e[below.index(b)] for b in between if b in below]
+    axes.fill_betweenx([b for b in between if b in below], edge, [c[at.index(b)] for b in between if b in below], color="#FBE9DC", zorder=0,
+                       label="depends on friction (CDEF)")
+    for name, (x, y) in zip("ABCDEF", ((2, 2), (8, 8), (c[0], at[0]), (c[-1], at[-1]), (e[0], below[0]), (e[-1], below[-1]))):
+        axes.annotate(name, (x, y), xytext=(-11, 3), textcoords="offset points", fontsize=11, fontweight="bold")
+    for text in list(axes.texts):
+        if "no separation" in text.get_text():
+            text.remove()
+    f.label(axes, legend=False)
+    axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=3, frameon=False)
+    return sheet
+
+
+def rim(run):
+    """Pressures, and in an inset those near the rim, which decide about separation."""
+    only = lambda s: not s.startswith("q") and "0.5" not in s  # noqa: E731
+    sheet = f.panels((run, "bonded_pressure", {"title": "", "only": only, "limits_y": "-0.02,1.2", "y": "p/p0"}), height=4)
+    (axes,) = sheet.axes
+    inset = axes.inset_axes((0.68, 0.5, 0.3, 0.38))
+    for line in axes.get_lines():
+        inset.plot(line.get_xdata(), line.get_ydata(), color=line.get_color(), linestyle=line.get_linestyle(), linewidth=1.2)
+    inset.axhline(0, color="black", linewidth=0.6)
+    inset.set_xlim(3.5, 5)
+    inset.set_ylim(-0.004, 0.012)
+    inset.tick_params(labelsize=7)
+    inset.set_title("near the rim", fontsize=8)
+    return sheet
+
+
+def slips(run):
+    """Slip where there is contact: each torque has a shade of its own."""
+    sheet, (axes,) = f.sheet(1, height=3.9)
+    ends = {0: run["separation"], **{row["wanted"]: row["separation"] for row in run.rows("torsion")}}
+    series = run.series("slip")
+    for k, (name, (radii, values)) in enumerate(series.items()):
+        end = ends[float(name.rpartition("=")[2])]
+        kept = [(r, v) for r, v in zip(radii, values) if end is None or r <= end]
+        f.curves(axes, {name: zip(*kept)}, "r/t", "slip E/(p0 t)", color=f.plt.cm.viridis(0.9 * k / (len(series) - 1)), linestyle="-")
+    axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=4, frameon=False)
+    return sheet
+
+
 def extents(run):
     sheet, (axes,) = f.sheet(1, height=3.9)
     for k, friction in enumerate((0.5, 0.8)):
@@ -84,6 +138,9 @@ def arrows(run):
     f.label(axes, legend=False)
     axes.legend(fontsize=7.5, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, frameon=False)
     axes.set_ylim(-0.05, 1.05)
+    normal = math.pi * 2.5**2 * 5  # P0 b of a = 2.5, b = 5
+    share = run["torque_limit"] / normal
+    axes.secondary_yaxis("right", functions=(lambda y: y * share, lambda y: y / share)).set_ylabel("T/(P0 b)")
     return sheet
 
 
@@ -104,11 +161,10 @@ CHAPTER.sketch("7.1", "Disc and half-space", "The disc may be as wide or narrow 
 figure("7.2", "Disc, load and supports", "axisymmetric_receding --check", """
 The disc in a plane through its axis, with its loads and supports, as the program is given it. Arrows are forces of nodes: they grow with the radius as the ring that a node
 stands for, the pressure is uniform. The half-space below needs no mesh.""",
-       lambda run: f.panels((run, "scene", {"title": ""})))
+       lambda run: f.panels((run, "scene", {"title": "bodies, loads, supports"}), (run, "mesh", {"title": "finite elements"}), columns=1, height=4.2))
 figure("7.3", "Pressure under a bonded disc", BONDED, """
 Disc and half-space bonded together: a load on r < a leaves hardly any pressure beyond about a + t.""",
-       lambda run: f.panels((run, "bonded_pressure", {"title": "", "only": lambda s: not s.startswith("q") and "0.5" not in s,
-                                                      "limits_y": "-0.02,1.2"})), rows="bonded", wrong="""
+       rim, rows="bonded", wrong="""
 The thesis finds a = 2.1 t to be the least radius of load without tension. The pressure near the rim is then a thousandth of p0 and changes its sign with any detail of the mesh;
 the number is ill-conditioned, and the profile is compared instead. (Where tension first goes, by our mesh and by the reference, is in the table of figure 7.4.)""", proof='axisymmetric_receding -bonded "0.8 2.1"')
 figure("7.4", "Where a bonded disc separates", CRITICAL, """
@@ -126,8 +182,9 @@ That the monolith pulls from 0.65 b on can't be confirmed: its pressure there is
 figure("7.7", "Tractions with contact, a = 0.5", SMALL, "The same with contact and f = 0.9: the pressure ends at d, and slip begins at c." + DOMAIN,
        lambda run: f.panels((run, "tractions", {"title": "", "limits_x": "0,5"})), rows="a = 0.5")
 figure("7.8", "When nothing separates", [CRITICAL, ADHESION], """
-Discs and loads for which nothing lifts off, without friction, with f = 0.5 and 0.8, and bonded. To the right of the frictionless line that holds for every friction.""",
-       lambda run, _: critical(run, [0, 0.5, 0.8]), rows="critical|full adhesion", wrong="""
+Discs and loads for which nothing lifts off, without friction (CD), with f = 0.5 and 0.8, and bonded (EF). To the right of CD, up to the disc that is loaded all over (AB), that holds for every friction; between CD and EF it
+depends on friction.""",
+       regions, rows="critical|full adhesion", wrong="""
 The thesis adds that a friction above 0.543 keeps the rim from slipping then. It keeps the corner itself, but close to it the ratio of tractions is higher: full
 adhesion asks for the values in the table.""", proof=ADHESION)
 figure("7.9", "Pressure during loading", LOADING, "a = 2.5 t, f = 0.5: pressures at four loads are proportional, and the disc separates at the same radius." + DOMAIN,
@@ -154,7 +211,7 @@ CHAPTER.sketch("7.13", "The torque", "P is held while the top of the disc is tur
 figure("7.14", "Tractions under torsion", TORSION, "Pressure, and resultant shear over f, for growing torque. Slip spreads inward, and separation moves inward with it.",
        lambda run: kinds(run, "torsion_tractions", "|q|/f: ", ("p/p0", "|q|/(f p0)")), rows="T_s|without friction|T/T_s|T_max")
 figure("7.15", "Slip under torsion", TORSION, "Resultant slip, which grows from the border of stick to that of separation, and everywhere with the torque.",
-       lambda run: f.panels((run, "slip", {"title": ""})))
+       slips)
 figure("7.16", "Zones and directions of slip under torsion", TORSION, """
 To the right radius, upward torque; arrows have the direction of slip: radial to the right, around the axis upward. At T = 0 slip is radial, at the spinning limit it goes round.""",
        arrows, rows="slip angle|T/T_s", wrong="""

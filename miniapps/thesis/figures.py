@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from cattaneo_show import drawing as plot  # noqa: E402
 
 COLOURS, DASHES = plot.COLOURS, plot.DASHES
-plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans",
+plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.8, "font.family": "DejaVu Sans",
                      "svg.hashsalt": "thesis"})
 
 
@@ -61,9 +61,9 @@ def curves(axes, named, x="", y="", title="", legend=True, **style):
 
 
 def label(axes, x="", y="", title="", legend=True):
-    axes.set_xlabel(x or axes.get_xlabel())
-    axes.set_ylabel(y or axes.get_ylabel())
-    axes.set_title(title or axes.get_title())
+    axes.set_xlabel(plot.symbols(x) or axes.get_xlabel())
+    axes.set_ylabel(plot.symbols(y) or axes.get_ylabel())
+    axes.set_title(plot.symbols(title) or axes.get_title())
     if axes.get_xscale() == "linear":
         axes.locator_params(axis="x", nbins=7)
     axes.grid(True, color="#DDDDDD", linewidth=0.6)

@@ -6,7 +6,9 @@ import io
 import re
 import shlex
 
-from figures import plt
+from figures import plot, plt
+
+SYMBOL = plot.SYMBOL
 
 STYLE = """
 :root { --ink: #1a1a1a; --soft: #5a5a5a; --line: #d5d5d5; --paper: #fff; --wash: #f5f5f2; --warn: #a33b00; }
@@ -29,18 +31,25 @@ th:first-child, td:first-child { text-align: left; white-space: normal; } th { c
 .wrong { border-left: 4px solid var(--warn); padding: .1rem 0 .1rem .9rem; margin: .8rem 0; }
 .missing { border: 1px dashed var(--soft); padding: .6rem .9rem; color: var(--soft); }
 @media print { body { max-width: none; padding: 0; font-size: 10.5pt; } section { break-inside: avoid; }
-  .scroll { overflow: visible; } h2 { break-before: page; border: 0; } h2, h3 { break-after: avoid; } a { color: inherit; text-decoration: none; }
-  figure img { max-height: 17cm; } @page { size: A4; margin: 16mm 15mm; } }
+  .scroll { overflow: visible; } h2 { break-before: auto; } h2, h3 { break-after: avoid; } a { color: inherit; text-decoration: none; }
+  figure img { max-height: 8.6cm; width: auto; } section { margin: 1.2rem 0; } @page { size: A4; margin: 16mm 15mm; } }
 """
 
 
+def set_symbols(text):
+    """K_N with its index below; code stays as it is."""
+    parts = re.split(r"(<code>.*?</code>)", text)
+    parts[::2] = [SYMBOL.sub(r"\1\2<sub>\3</sub>", part) for part in parts[::2]]
+    return "".join(parts)
+
+
 def prose(text):
-    """Paragraphs; `code` and *emphasis* in them."""
+    """Paragraphs; `code`, *emphasis* and symbols in them."""
     done = []
     for paragraph in re.split(r"\n\s*\n", text.strip()):
         one = html.escape(" ".join(paragraph.split()), quote=False)
         one = re.sub(r"`([^`]+)`", r"<code>\1</code>", one)
-        done.append("<p>" + re.sub(r"\*([^*]+)\*", r"<em>\1</em>", one) + "</p>")
+        done.append("<p>" + set_symbols(re.sub(r"\*([^*]+)\*", r"<em>\1</em>", one)) + "</p>")
     return "\n".join(done)
 
 
@@ -68,13 +77,11 @@ def number(value, form="{:.5g}"):
 
 
 def verdict(row):
-    """As the studies' own tables say it."""
+    """Only what is outside of the ± of reference and mesh is marked."""
     if row["reference"] is None or row["computed"] is None:
         return "outside of its ±" if row["outside"] else ""
     off = abs(row["computed"] - row["reference"])
-    if off <= (row["spread"] or 0):
-        return ""
-    return "within the mesh's ±" if row["tolerance"] is not None and off <= row["tolerance"] else "outside of its ±"
+    return "" if off <= max(row["spread"] or 0, row["tolerance"] or 0) else "outside of its ±"
 
 
 def comparison(rows):
@@ -83,7 +90,7 @@ def comparison(rows):
     body = ""
     for row in rows:
         known = row["reference"] is not None and row["computed"] is not None
-        cells = [html.escape(row["quantity"]), number(row["reference"]), number(row["spread"], "{:.2g}"), number(row["thesis"], "{:.4g}"),
+        cells = [set_symbols(html.escape(row["quantity"])), number(row["reference"]), number(row["spread"], "{:.2g}"), number(row["thesis"], "{:.4g}"),
                  number(row["computed"]), number(row["computed"] - row["reference"] if known else None, "{:+.2g}"),
                  f'<span class="outside">{verdict(row)}</span>']
         body += "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>\n"
@@ -92,7 +99,7 @@ def comparison(rows):
 
 def section(figure, runs, fault):
     """One figure; `runs` those of its commands, `fault` why it is not there."""
-    parts = [f'<section id="{anchor(figure.number)}"><h3>{figure.name}: {html.escape(figure.title)}</h3>']
+    parts = [f'<section id="{anchor(figure.number)}"><h3>{figure.name}: {set_symbols(html.escape(figure.title))}</h3>']
     fault = fault or figure.missing
     if figure.text:
         parts.append(prose(figure.text))

@@ -26,8 +26,7 @@ contacts applied to fretting fatigue*, Oxford 2013), figure by figure, with curv
 converged meshes. Every section says what its figure shows, and the command that makes it.
 
 Tables compare with *references*: closed forms, and values found independently of this program, with their own ±. Values
-outside of it are marked; "within the mesh's ±" says that the errors of the mesh and the increments of the run, which are known,
-explain the difference. Values of the thesis are those that its text states. In figures they are hollow diamonds. Where the thesis is
+are marked that are outside of it by more than the errors of the mesh and the increments of the run, which are known. Values of the thesis are those that its text states. In figures they are hollow diamonds. Where the thesis is
 wrong, the reason stands below the table. Quantities are dimensionless as each chapter says.
 """
 

@@ -23,7 +23,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Annulus, Patch, Polygon
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from .panels import Refused, panel, panel_names, series_of, value
 
@@ -38,6 +38,18 @@ STATES = OrderedDict([
     ("slip", ("#E69F00", "////")),
     ("separation", ("#FFFFFF", "....")),
 ])
+# In grey both slips are alike but for their hatching, dark and white.
+HATCH = {"backward slip": "#FFFFFFDD"}
+
+
+def hatch_of(state):
+    return HATCH.get(state, "#00000066")
+
+
+def state_patch(state):
+    """Of a legend."""
+    colour, hatch = STATES[state]
+    return Patch(facecolor=colour, edgecolor=hatch_of(state), hatch=hatch, label=state)
 
 
 def dashes(k):
@@ -47,16 +59,19 @@ def dashes(k):
 
 def draw_lines(axes, comments, rows):
     series = series_of(comments, rows)
+    along, comments["x"] = along_line(comments, comments["x"], [name for name, _ in series])
+    if along:
+        series = OrderedDict((key, [(along(key[0], s), y) for s, y in points]) for key, points in series.items())
     # Curves with companions are told apart by colour, and the companions are the dashed ones.
     plain = any(style == "dashed" and ": " in name for name, style in series)
     curves = ("line", "marked", "points", "hollow", "band")
     names = list(OrderedDict.fromkeys(name for name, style in series if style in curves))
-    labelled, bands, companions = set(), {}, {}
+    labelled, bands, companions, first = set(), {}, {}, int((comments["colour"] or ["0"])[0])
     for (name, style), points in series.items():
         x, y = zip(*points)
         # A comparison takes the colour of the curve it belongs to ("closed form: q" goes with "q").
         owner = next((k for k, other in enumerate(names) if name == other or name.endswith(": " + other)), None)
-        colour = COLOURS[owner % len(COLOURS)] if owner is not None else "#555555"
+        colour = COLOURS[(first + owner) % len(COLOURS)] if owner is not None else "#555555"
         label = name if name not in labelled else None
         labelled.add(name)
         if name.endswith("(design)"):
@@ -94,12 +109,46 @@ def draw_lines(axes, comments, rows):
         axes.set_ylim(min(inner) - gap, max(inner) + gap)
     axes.grid(True, color="#DDDDDD", linewidth=0.6)
     axes.set_axisbelow(True)
+    for line in axes.get_lines():  # on a logarithmic axis nothing is seen of it
+        if comments["scale"] and comments["scale"][0] != "semilogx" and len(line.get_ydata()) and not max(line.get_ydata()) > 0:
+            line.set_label(f"{line.get_label()} (zero)")
     said = labelled - {""}
     if len(labelled) > 1 or said and not said & set(comments["y"][0].split()):  # the axis names a single curve
         legend_below(axes)
 
 
+def along_line(said, label, names=()):
+    """Places by x or y where all contact lines are straight along one axis, as a panel says ("straight": NAME=x,way,start): what an
+    arc length is of a curve, and the label of the axis. The names are those of the curves, of several interfaces their own."""
+    lines = {}
+    for text in said["straight"]:
+        name, _, place = text.rpartition("=")
+        axis, way, start = place.split(",")
+        lines[name] = (axis, float(way), float(start))
+    axes, curves = {axis for axis, _, _ in lines.values()}, {interface_of(name) for name in names}
+    known = len(lines) == 1 and len(curves) < 2 and not said["apart"] or curves <= set(lines)
+    if len(axes) != 1 or not known or not label or not label[0].startswith("arc length"):
+        return None, label
+
+    def place(name, s):
+        _, way, start = lines.get(interface_of(name), next(iter(lines.values())))
+        return start + way * s
+
+    return place, [axes.pop() + label[0].removeprefix("arc length")]
+
+
+def interface_of(curve):
+    """Of the names of tractions."""
+    return curve.removeprefix("q/f: ")
+
+
 def draw_zones(axes, comments, rows):
+    along, comments["y"] = along_line(comments, comments["y"])
+    if along:
+        for row in rows:
+            ends = sorted(along("", value(row[key])) for key in ("from", "to"))
+            row.update(zip(("from", "to"), ends))
+        rows = sorted(rows, key=lambda row: (value(row["time"]), row["from"]))
     marks = [row for row in rows if row["state"] == "thesis"]
     steps = OrderedDict()
     for row in rows:
@@ -122,14 +171,14 @@ def draw_zones(axes, comments, rows):
             colour, hatch = STATES[state]
             axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor=colour, edgecolor=colour, linewidth=0.4))
             if hatch:
-                axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor="none", edgecolor="#00000044",
+                axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor="none", edgecolor=hatch_of(state),
                                        hatch=hatch, linewidth=0))
             if j:
                 axes.plot(*zip(*below), color="black", linewidth=0.7)
             seen.add(state)
     axes.set_xlim(min(times) if len(times) > 1 else 0, max(times))
     axes.set_ylim(min(z[1] for s in steps.values() for z in s), max(z[2] for s in steps.values() for z in s))
-    handles = [Patch(facecolor=STATES[s][0], edgecolor="#00000066", hatch=STATES[s][1], label=s)
+    handles = [state_patch(s)
                for s in STATES if s in seen]
     if marks:
         axes.plot([value(r["time"]) for r in marks], [value(r["from"]) for r in marks], "D", color="black",
@@ -148,7 +197,7 @@ def legend_below(axes):
                 handlelength=2.6, columnspacing=1.4)
 
 
-SYMBOL = re.compile(r"(?<!\w)(Δ?)([A-Za-zσξτ])_(\w+(?:,max|,min)?)")
+SYMBOL = re.compile(r"(?<!\w)(Δ?)([A-Za-zσξτ])_([A-Za-z0-9]+(?:,max|,min)?)")
 
 
 def symbols(text):
@@ -167,10 +216,10 @@ def draw_plan(axes, comments, rows):
     for row in rings:
         lo, hi = value(row["from"]), value(row["to"])
         colour, hatch = STATES[row["item"]]
-        for face, edge, pattern in ((colour, "black", None), ("none", "#00000033", hatch)):
+        for face, edge, pattern in ((colour, "black", None), ("none", hatch_of(row["item"]), hatch)):
             axes.add_patch(Annulus((0, 0), hi, (hi - lo) * 0.9999, facecolor=face, edgecolor=edge, hatch=pattern,
                                    linewidth=0.7))
-    handles = [Patch(facecolor=STATES[s][0], edgecolor="#00000066", hatch=STATES[s][1], label=s)
+    handles = [state_patch(s)
                for s in STATES if any(row["item"] == s for row in rings)]
     for kind, colour in (("rate", "black"), ("total", "#0072B2")):
         arrows = [(value(row["from"]), value(row["to"])) for row in rows if row["item"] == kind]
@@ -213,26 +262,32 @@ def draw_scene(axes, comments, rows):
     items, arrows = OrderedDict(), 0
     for row in rows:
         items.setdefault(row["item"], []).append([value(row[key]) for key in ("x", "y", "dx", "dy")])
+    bodies = [item for item in items if item.split()[0] == "body"]
+    of_body = {item: COLOURS[k % len(COLOURS)] for k, item in enumerate(bodies)}
+    named = not all(re.fullmatch(r"body \d+", item) for item in bodies)
     for item, parts in items.items():
         x, y, dx, dy = zip(*parts)
         kind = item.split()[0]
         if kind in ("body", "gap"):
-            bodies = [other for other in items if other.split()[0] == "body"]
-            colour = "black" if kind == "gap" else COLOURS[bodies.index(item) % len(COLOURS)]
+            colour = "black" if kind == "gap" else of_body[item]
             axes.add_collection(LineCollection([[(a, b), (a + c, b + d)] for a, b, c, d in parts], colors=colour,
-                                               linewidths=1.4 if kind == "body" else 0.8, label=item))
+                                               linewidths=0.8 if kind == "gap" else 0.35 if len(bodies) == len(items) else 1.4, label=item.removeprefix("body ") if named else item))
         elif kind == "contact":
-            axes.plot(x, y, "o" if item.endswith("1") else "x", color=COLOURS[0 if item.endswith("1") else 1],
+            owner = item.removeprefix("contact of ")
+            colour = of_body.get(owner, of_body.get("body " + owner, "black"))
+            axes.plot(x, y, "+" if colour == "black" else "ox"[list(of_body.values()).index(colour) % 2], color=colour,
                       markersize=4, markerfacecolor="none", label=item)
+        elif kind in ("guide", "turn"):
+            axes.plot(x, y, "s" if kind == "guide" else "o", color="black", markersize=3 if kind == "guide" else 9, markerfacecolor="none", label=item)
         elif kind == "held":
             axes.plot(x, y, ">" if item == "held x" else "^", color="black", markersize=3.5, label=item)
         else:
-            colour = "#555555" if kind == "normal" else COLOURS[2 + arrows % 5]
+            colour = "#777777" if kind == "normal" else COLOURS[(len(bodies) + arrows) % len(COLOURS)]
             arrows += kind == "load"
-            axes.quiver(x, y, dx, dy, angles="xy", scale_units="xy", scale=1, width=0.004, color=colour, zorder=3,
-                        label=item)
-    axes.set_aspect("equal")
-    axes.legend(fontsize=7, ncol=3, loc="upper center", bbox_to_anchor=(0.5, -0.2), frameon=False)
+            axes.quiver(x, y, dx, dy, angles="xy", scale_units="xy", scale=1, width=0.004, color=colour, zorder=3)
+            axes.plot([], [], color=colour, marker=r"$\rightarrow$", markersize=11, linestyle="", label=item)
+    axes.set_aspect("equal", anchor="S")  # the legend stays below
+    axes.legend(fontsize=7, ncol=3, loc="upper center", bbox_to_anchor=(0.5, -0.21), frameon=False)
 
 
 def finish(axes, comments):
@@ -245,12 +300,6 @@ def finish(axes, comments):
         axes.set_xscale("log")
     if scale in ("loglog", "semilogy"):
         axes.set_yscale("log")
-    for axis, kind in (("x", axes.get_xscale()), ("y", axes.get_yscale())):
-        if kind == "linear":  # one power of ten for all ticks, which would overlap
-            axes.ticklabel_format(axis=axis, scilimits=(-2, 5), useMathText=True)
-    for axis, limit in (("x", axes.set_xlim), ("y", axes.set_ylim)):
-        lo, _, hi = one.get("limits " + axis, ",").partition(",")
-        limit(float(lo) if lo else None, float(hi) if hi else None)
     for key, span, place in (("shade", axes.axvspan, axes.get_xaxis_transform()),
                              ("shade y", axes.axhspan, axes.get_yaxis_transform())):
         for text in comments[key]:
@@ -259,8 +308,25 @@ def finish(axes, comments):
             if word and key == "shade":
                 axes.text((float(lo) + float(hi)) / 2, 0.98, word, transform=place, fontsize=8, rotation=90, ha="center", va="top",
                           clip_on=True)
+    for axis, limit in (("x", axes.set_xlim), ("y", axes.set_ylim)):
+        lo, _, hi = one.get("limits " + axis, ",").partition(",")
+        limit(float(lo) if lo else None, float(hi) if hi else None)
     if one.get("reversed") == "x":
         axes.invert_xaxis()
+    for axis, kind, limits in ((axes.xaxis, axes.get_xscale(), axes.get_xlim()), (axes.yaxis, axes.get_yscale(), axes.get_ylim())):
+        if kind == "linear":
+            one_power(axis, max(map(abs, limits)))
+
+
+def one_power(axis, largest):
+    """One power of ten for all ticks, which would overlap: it stands before the unit."""
+    power = math.floor(math.log10(largest)) if 0 < largest < math.inf else 0
+    if -2 <= power < 5:
+        return
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x / 10.0**power:.6g}"))
+    name, bracket, unit = axis.get_label_text().rpartition(" [")
+    ten = f"$10^{{{power}}}$"
+    axis.set_label_text(f"{name} [{ten} {unit}" if bracket else f"{unit} [{ten}]")
 
 
 def less_elastic(said, rows):
@@ -291,15 +357,28 @@ DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": d
         "scene": draw_scene}
 
 
+def caption(run):
+    """The case and the study of a run."""
+    case = run["shown"]["options"].get("case") or ""
+    title = case.replace("\\", "/").rpartition("/")[2].removesuffix(".json")
+    return f"{title} ({run['shown']['study']})" if title else run["shown"]["study"]
+
+
 # Text of 9 points, and letters that stay letters in a PDF.
-STYLE = {"pdf.fonttype": 42, "font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans"}
+STYLE = {"pdf.fonttype": 42, "font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.8, "font.family": "DejaVu Sans"}
 
 
-def figure(run, names=None):
-    """All panels of a run, or those of these names."""
+def drawn_panels(run, names=None):
+    """Words and rows of all panels of a run, or those of these names, in the order in which they are drawn."""
     panels = []
     for name in panel_names(run) if names is None else names:
         said, rows = panel(run, name)
+        if said["apart"]:  # one panel an interface, each in its colour
+            of_curve = OrderedDict.fromkeys(interface_of(row["series"]) for row in rows)
+            for k, name in enumerate(of_curve):
+                own = defaultdict(list, said, title=[f"{said['title'][0]}, {name}"], colour=[str(k)])
+                panels.append((own, [row for row in rows if interface_of(row["series"]) == name]))
+            continue
         if said["kind"] != ["field"]:
             panels.append((said, rows))
             less = less_elastic(said, rows) if name.startswith("loops") and said["kind"] == ["lines"] else None
@@ -309,8 +388,11 @@ def figure(run, names=None):
         for series in OrderedDict.fromkeys(row["series"] for row in rows):
             own = defaultdict(list, said, title=[f"{said['title'][0]}, {series}"])
             panels.append((own, [row for row in rows if row["series"] == series]))
-    if not panels:
-        raise Refused("the run has nothing to draw")
+    return panels
+
+
+def sheet(panels, title=""):
+    """A figure of panels, side by side."""
     columns = 1 if len(panels) == 1 else 2 if len(panels) < 7 else 3
     height = -(-len(panels) // columns)
     with matplotlib.rc_context(STYLE):
@@ -321,8 +403,18 @@ def figure(run, names=None):
         for axes, (said, rows) in zip(grid.flat, panels):
             DRAW[said["kind"][0]](axes, said, rows)
             finish(axes, said)
-        made.tight_layout()
+        if title:
+            made.suptitle(title, fontsize=11, fontweight="bold", x=0.01, ha="left")
+        made.tight_layout(rect=(0, 0, 1, 1 - 0.04 / height if title else 1))
     return made
+
+
+def figure(run, names=None):
+    """All panels of a run, or those of these names. One alone is for a paper, and has no title of the run."""
+    panels = drawn_panels(run, names)
+    if not panels:
+        raise Refused("the run has nothing to draw")
+    return sheet(panels, caption(run) if len(panels) > 1 else "")
 
 
 def save(made, file, **options):

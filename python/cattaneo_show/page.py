@@ -3,8 +3,9 @@
 import io
 import json
 import pathlib
+import re
 
-from .panels import read
+from .panels import panel_names, read
 from .tables import write
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -29,9 +30,22 @@ def page(run, file, figure=True):
     write(file, text)
 
 
-def svg(run):
-    from .drawing import figure, save
+# What the slider shows already, increment by increment.
+SLIDER_HAS = ("zones_in_time", "tractions", "loops")
 
-    drawn = io.StringIO()
-    save(figure(run), drawn, format="svg")
-    return drawn.getvalue()[drawn.getvalue().index("<svg"):]
+
+def svg(run):
+    """Each panel by itself, so that they stand side by side where there is room. Those of the slider are left out."""
+    from .drawing import drawn_panels, save, sheet
+
+    slider = bool(run["shown"]["marches"])
+    names = [name for name in panel_names(run) if not (slider and run["shown"]["study"] in ("contact", "march") and name.startswith(SLIDER_HAS))]
+    pieces = []
+    for k, one in enumerate(drawn_panels(run, names)):
+        drawn = io.StringIO()
+        save(sheet([one]), drawn, format="svg")
+        # Names within a picture are those of the page as well.
+        text = drawn.getvalue()[drawn.getvalue().index("<svg"):]
+        text = re.sub(r'(\bid="|href="#|url\(#)', rf"\1f{k}-", text)
+        pieces.append(f"<div>{text}</div>")
+    return "".join(pieces)

@@ -20,6 +20,7 @@ from .tables import Table, csv_of_lines, text_of, write
 
 # Sizes and times of a run, and residuals: no results to be listed unasked.
 NO_RESULTS = {"contact_nodes", "dofs", "seconds", "seconds_condensation", "time", "event_time", "largest_residual", "energy_imbalance"}
+NOT_SHOWN = {"first_cycle", "state_changes", "steady_cycle", "steady_period"}  # unasked: they say how a run went
 MOST_SHOWN = 9  # columns on the screen, and panels
 
 
@@ -154,7 +155,8 @@ def single_numbers(points, keys):
 
 
 def varies(points, path):
-    """Does a result differ from point to point, by more than round-off?"""
+    """Does a result differ from point to point that ended well (from all, if none did), by more than round-off?"""
+    points = [point for point in points if point.ended_well] or points
     first = result(points[0].results, path)
     for point in points:
         x = result(point.results, path)
@@ -183,6 +185,17 @@ def called(key):
         return key
     load = unquoted(places[0][2])
     return f"amplitude of {load}" if any(part.startswith("-") for part in parts) else f"{load} at point {', '.join(place[1] for place in places)}"
+
+
+def words_of(points, name):
+    """A result as the program's own output calls it, and its unit: label, then " [unit]" or nothing."""
+    for point in points:
+        for value in point.results.get("shown", {}).get("values", []):
+            if value.get("key") == name and value["label"]:
+                label, bracket, unit = value["label"].partition(" [")
+                return label, f" [{value['unit']}]" if value["unit"] else bracket + unit
+    energy = next((point.results["shown"]["units"].get("energy", "") for point in points if "shown" in point.results), "")
+    return name.replace("_", " "), energy if name.endswith("dissipation") else ""
 
 
 def scale(parts):
@@ -234,7 +247,8 @@ def curves(keys, points, names):
             shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{slides[min(slides)].replace('_', ' ')}"}
         if parts:
             slopes(parts, scale(parts.values()))
-            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": name, "x": label, "y": name,
+            said, unit = words_of(points, name)
+            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": said[:1].upper() + said[1:], "x": label, "y": said + unit,
                            **scale(parts.values()), **shaded, "parts": list(parts.values())})
     return panels
 
@@ -269,7 +283,7 @@ def sweep(plan, draws):
     for name in missing:  # what was computed stays, and the others that were asked for
         run["message"] = f"option --sweep-results: no point has a number or a word of the name '{name}', {allowed}"
         print("\n" + run["message"])
-    shown = [name for name, path in names.items() if wanted or (points and varies(points, path))][:MOST_SHOWN]
+    shown = [name for name, path in names.items() if wanted or (name not in NOT_SHOWN and points and varies(points, path))][:MOST_SHOWN]
     table = table_of(keys, points, names, shown)
     table.show()
     for sentence in dict.fromkeys(sentence for point in points for sentence in point.results.get("warnings", [])):

@@ -292,7 +292,7 @@ def test_borderline_designs_are_answered_and_said(run):
     # Finite elements without shear: nothing slips.
     assert run.line("fretting --pad fe --shear-load 0")["fe"]["trailing"]["slip_zone"] == 0
     # A slip zone of one spacing: the intensities hold, the rest is said not to.
-    got = run.line("fretting --pad fe --friction 0.7 --shear-load 20")
+    got = run.line("fretting --pad fe --friction 0.7 --shear-load 20 --nodes 101")
     got.meets(CylinderOnHalfPlane(20).intensities())
     assert got["fe"]["trailing"]["resolved"] is False
     assert "not resolved" in got.output

@@ -115,7 +115,7 @@ def main():
         dom = shown(browser, joint)
         for k, name in enumerate(("faying", "under_head", "under_nut")):
             assert f"Zones, {name}<" in dom and re.search(rf'id="pressure{f"-{k}" if k else ""}"', dom), name
-        assert "<h1 id=\"name\">bolted_joint (contact)</h1>" in dom and ">displacement of upper:end along x<" in dom and "Displacements are drawn" in dom
+        assert "<h1 id=\"name\">bolted_joint (contact)</h1>" in dom and ">displacement of upper:end along x [mm]<" in dom and "Displacements are drawn" in dom
         assert {row[3] for row in cells(dom, "zones")} == {"faying", "under_head", "under_nut"}
         history, nodes = (list(csv.DictReader(open(folder / f"t_{table}.csv", encoding="utf-8"))) for table in ("history", "nodes"))
         seen = []
