@@ -20,7 +20,7 @@ bool closes(const ReducedProblem &problem, const ContactState &before,
 bool advances_too_far(const ReducedProblem &problem, const ContactState &before,
                       const ContactState &after)
 {
-   // Nodes that touch without force open and close by round-off, which does not count as an
+   // Nodes that touch without force open and close by round-off. This does not count as an
    // advance.
    const std::vector<NodeState> settled = settled_states(problem, after);
    for (const ContactChain &chain : problem.chains)

@@ -65,7 +65,7 @@ bool newton_on_states(const std::function<std::vector<double>()> &choices, int m
                       const std::function<Index()> &ask)
 {
    std::set<std::vector<double>> tried;
-   // A few of many nodes that keep changing would do so up to the last allowed step.
+   // If a few of many nodes keep changing, they would do so up to the last allowed step.
    constexpr int enough = 8;
    Index fewest = std::numeric_limits<Index>::max();
    int patience = enough;

@@ -103,7 +103,7 @@ double FrictionBound::bend(double p, double way) const
    if (!law_) { return found; }
    for (const Eigen::MatrixX2d *points : {&law_->forward, &law_->backward})
    {
-      // Beyond the last point it goes straight on.
+      // Beyond the last point the polyline goes straight on.
       for (Index k = 0; k + 1 < points->rows(); ++k)
       {
          const double at = (*points)(k, 0);
@@ -271,8 +271,8 @@ NodeMove solve_node(const LoneNode &node)
          return move;
       }
       const SlipEquation equation{node};
-      // A straight piece of a bent law may be below zero at this pressure, as it belongs to
-      // other pressures. Its bound is then zero, and the node goes to another piece.
+      // A straight piece of a bent law may be below zero at this pressure, because the piece
+      // belongs to other pressures. Its bound is then zero, and the node goes to another piece.
       const double t = equation(0) > 0 ? 0.0 : find_root(equation, 0, 1);
       move.state = NodeState::slip;
       move.slip = -(1 - t) * equation.y(t);
@@ -365,7 +365,7 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
          if (slip_error.size()) { known_to = std::max(known_to, slip_error[row]); }
          note(check.tangential, std::abs(forces[row] - state.q[row]), most);
       }
-      // An open node bears nothing, and no other law holds for its slip.
+      // An open node carries no force, and no other law holds for its slip.
       if (!closed(state.status[i])) { node.slip.setZero(); }
       check.tangential = std::max(check.tangential, slip_violation(node));
       judge(slip_violation(node, std::max(known_to, c == 2 ? slip_round_off(size) : 0.0)),

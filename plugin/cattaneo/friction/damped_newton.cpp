@@ -78,7 +78,7 @@ bool descend(Increment &at, long most)
    VectorXd R = natural_map(at);
    for (long k = 0; k < std::min<long>(most, 2 * s.settings.max_newton); ++k)
    {
-      // Near enough for the active set to go on from here.
+      // Near enough for the active set to continue from here.
       if (R.norm() <= 1e-9 * at.reference + at.round_off().maxCoeff()) { return true; }
       ++s.counters.newton_steps;
       ++s.counters.dense_factorisations;

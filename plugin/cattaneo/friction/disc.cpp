@@ -55,7 +55,7 @@ bool DiscEquations::eliminate_open(Increment &at)
    return true;
 }
 
-/// The nodes that slip, and what their slips do to each other's forces: {q; p} by {x}.
+/// The nodes that slip, and the stiffness between them: {q; p} by {x}.
 void DiscEquations::gather(const Increment &at)
 {
    std::vector<Index> slipping;
@@ -75,7 +75,7 @@ void DiscEquations::gather(const Increment &at)
    of_slip_ = K_(rows, columns);
 }
 
-/// Forces of the closed nodes if all nodes are at u, and the open ones then move until they
+/// Forces of the closed nodes if all nodes are at u and the open nodes then move until they
 /// carry no force.
 DiscEquations::Origin DiscEquations::origin_at(const Increment &at, const VectorXd &u) const
 {
@@ -223,7 +223,8 @@ VectorXd DiscEquations::with_factor(const Linearised &to, const VectorXd &r) con
 /// GMRES with the factor of an earlier step. False if it does not converge soon.
 bool DiscEquations::iterate(const Linearised &to, const VectorXd &r, VectorXd &x) const
 {
-   // No more accurate than Newton's step itself, because the next step corrects the rest.
+   // The solution needs no more accuracy than Newton's step itself, because the next step
+   // corrects the rest.
    constexpr double enough = 1e-6;
    // A step of the iteration reads two matrices; a factorisation costs a hundred times as much.
    constexpr int most = 16;
@@ -356,7 +357,7 @@ namespace
 Index take_natural_states(Increment &at)
 {
    const FrictionSystem &s = at.system;
-   // Violations that change nothing.
+   // Violations that are too small to change a state.
    const VectorXd tiny =
       (0.5 * at.round_off()).cwiseMax(0.1 * s.settings.tolerance * at.reference);
    Index changed = 0;

@@ -53,7 +53,7 @@ NodeWay::NodeWay(const ReducedProblem &problem, const ContactState &before,
    const double g0 = bound.at(p0, sense), dg = bound.at(p1, sense) - g0, size = magnitude(q0);
    a = turning.squaredNorm() - dg * dg;
    b = 2 * q0.dot(turning) - 2 * g0 * dg;
-   c = std::min((size - g0) * (size + g0), 0.0); // friction is not exhausted yet, or just so
+   c = std::min((size - g0) * (size + g0), 0.0); // friction is not exhausted yet, or only just
    const double root = std::sqrt(std::max(b * b - 4 * a * c, 0.0));
    if (b > 0) { start = -2 * c / (b + root); }
    else if (a > 0) { start = (root - b) / (2 * a); }

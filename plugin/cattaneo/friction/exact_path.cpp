@@ -97,7 +97,8 @@ bool ExactPath::find_pieces(const ContactState &state)
    return changed;
 }
 
-/// Turns the nodes at a bend whose pressures go to its other side. False if there are none.
+/// Changes the side of nodes at a bend whose pressures go to its other side. False if there are
+/// none.
 bool ExactPath::turn_bends()
 {
    const Index n = problem_.nodes();
@@ -128,9 +129,9 @@ VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
    return constant;
 }
 
-/// Handles a body that touches at one node, about which only its balance keeps it from turning.
-/// One more node is set to touch; its force shows whether the loads turn the body. False if
-/// there is no such body.
+/// Handles a body that touches at one node and can turn about it, unless the loads are
+/// balanced. One more node is set to touch; its force shows whether the loads turn the body.
+/// False if there is no such body.
 bool ExactPath::place_pivot(std::vector<NodeState> states)
 {
    const Index n = problem_.nodes();
@@ -140,7 +141,7 @@ bool ExactPath::place_pivot(std::vector<NodeState> states)
    double farthest = 0;
    for (Index i = 0; i < n; ++i)
    {
-      // Nodes that slip around the pivot would add their friction.
+      // Slipping nodes around the pivot would add their friction.
       if (closed(states[i]) && std::abs(pivot_.motion[i]) > 1e-9) { return false; }
       if (closed(states[i]) || std::abs(pivot_.motion[n + i]) <= farthest) { continue; }
       farthest = std::abs(pivot_.motion[n + i]);
@@ -178,7 +179,7 @@ bool ExactPath::release_pivot()
    F_rate_[pivot_.node] = F_rate_[n + pivot_.node] = 0;
    const VectorXd weighted = node_lengths(problem_).replicate(2, 1).cwiseProduct(pivot_.motion);
    u_rate_ -= pivot_.motion * (weighted.dot(u_rate_) / weighted.dot(pivot_.motion));
-   // Nodes that touch without force let it turn one way.
+   // Nodes that touch without force let the body turn in one direction only.
    double least = -std::numeric_limits<double>::infinity(), most = -least;
    for (Index i = 0; i < n; ++i)
    {
@@ -200,8 +201,8 @@ bool ExactPath::release_pivot()
    return true;
 }
 
-/// Gives the equations the present states. If these do not hold the bodies, finds others that
-/// do. False if there are none.
+/// Gives the present states to the equations. If these states do not hold the bodies, finds
+/// others that do. False if there are none.
 bool ExactPath::set_states(const ContactState &state)
 {
    std::vector<NodeState> states = state.status;
@@ -237,7 +238,7 @@ bool ExactPath::search_rates(std::optional<ComplementarityReport> known,
    }
    if (!found.solved && pivot_.node < 0)
    {
-      // Nodes that touch may bear nothing if the body is balanced about another node.
+      // Nodes that touch may carry no force if the body is balanced about another node.
       for (std::size_t i = 0; i < states.size(); ++i)
       {
          if (rates_.choice[i] == Choice::any) { states[i] = NodeState::separation; }
@@ -254,7 +255,7 @@ bool ExactPath::search_rates(std::optional<ComplementarityReport> known,
    return found.solved;
 }
 
-/// Rates of displacements and forces over the rest of the way.
+/// Rates of displacements and forces over the rest of the path.
 bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
 {
    // 1. The pieces of bounds that bend.
@@ -404,7 +405,7 @@ double ExactPath::share_past_event() const
 namespace
 {
 
-/// Would a correction of a step reverse the slip of a node, against its state?
+/// Would the correction of a step reverse the slip of a node, in contradiction to its state?
 bool turns(const VectorXd &step, const VectorXd &correction,
            const std::vector<NodeState> &states)
 {
@@ -461,8 +462,8 @@ double ExactPath::set_out(const ContactState &state, const PathWay &way)
    return present;
 }
 
-/// Goes on by a share of the path, to these loads. Returns the part of it that was taken back
-/// because an event came earlier.
+/// Advances by a share of the path, to these loads. Returns the part of the share that was
+/// taken back because an event came earlier.
 double ExactPath::go(double share, const std::vector<NodeState> &states, const VectorXd &loads)
 {
    const Index n = problem_.nodes();
@@ -483,8 +484,8 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
    const VectorXd constant = intercepts(states);
    VectorXd correction, corrected;
    last_.slip_error = VectorXd::Zero(n);
-   // A step may be so short that the correction would reverse its slip. The displacements are
-   // as good without the correction then.
+   // A step may be so short that the correction would reverse its slip. Then the displacements
+   // are as accurate without the correction.
    if ((share < 1 && !drifted) || !equations_.solve(forces + constant, correction, corrected) ||
        (!drifted && turns(step, correction, states)))
    {
@@ -492,7 +493,7 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
    }
    u_ += correction;
    F_ = corrected - constant;
-   // The state before had this error already. It does not count as slip.
+   // The state before had this error already, so it does not count as slip.
    last_.slip_error = correction.head(n).cwiseAbs();
    // If little resists a rotation, the correction can carry a node past its event. Then go back
    // to the event.
@@ -507,7 +508,7 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
 void ExactPath::write(ContactState &state, std::vector<NodeState> states, double present) const
 {
    const Index n = problem_.nodes();
-   // The loads of the rest of the way are still to come.
+   // The loads of the rest of the path are still to come.
    state.peak_force =
       std::max({present, F_.cwiseAbs().maxCoeff(),
                 problem_.clamped_forces(state.multipliers).cwiseAbs().maxCoeff()});

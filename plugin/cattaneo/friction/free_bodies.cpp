@@ -1,5 +1,5 @@
 // Bodies that only contact keeps in place. Three questions: do the loads drive them away, where
-// do they rest on weak springs, and which is the least motion if their place is not determined?
+// do they rest on weak springs, and what is the least motion if their place is not determined?
 
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
@@ -23,8 +23,8 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Forces inside the friction cones that balance the loads along the rigid motions as nearly as
-/// possible.
+/// Forces inside the friction cones that balance the loads along the rigid motions as closely
+/// as possible.
 struct ConeFit
 {
    NonnegativeFit fit;
@@ -40,8 +40,7 @@ bool proves(const NonnegativeFit &fit, const MatrixXd &G)
    return slope * fit.x.sum() < 0.1 * fit.residual.squaredNorm();
 }
 
-/// The edge of each round cone that points most along r, of those that do so by more than
-/// `least`.
+/// For each round cone the edge that points most along r, if it does so by more than `least`.
 MatrixXd edges_along(const MatrixXd &Z, const std::vector<FrictionBound> &bound,
                      const VectorXd &r, double least)
 {
@@ -62,8 +61,8 @@ MatrixXd edges_along(const MatrixXd &Z, const std::vector<FrictionBound> &bound,
    return edges.leftCols(count);
 }
 
-/// Forces inside the cones that balance the loads g along the motions Z, but for a residual.
-/// One below `enough` of the loads is none.
+/// Forces inside the cones that balance the loads g along the motions Z, apart from a residual.
+/// A residual below `enough` of the loads counts as zero.
 ConeFit fit_to_cones(const MatrixXd &Z, const std::vector<FrictionBound> &bound,
                      const VectorXd &g, double enough)
 {
@@ -85,8 +84,8 @@ ConeFit fit_to_cones(const MatrixXd &Z, const std::vector<FrictionBound> &bound,
    return found;
 }
 
-/// Does a mechanism slide or spin, or only lift off? A body that slides has forces at nodes
-/// along which it moves. A body that lifts off has forces at no node, or only at nodes about
+/// Does a mechanism slide or spin, or only lift off? A body that slides has forces at nodes and
+/// moves along these nodes. A body that lifts off has no forces, or forces only at nodes about
 /// which it turns. `forces`: along the edges of the cones.
 void describe(Mechanism &mechanism, const ReducedProblem &problem, const VectorXd &forces)
 {
@@ -246,7 +245,7 @@ VectorXd with_one(const VectorXd &multipliers)
    return all;
 }
 
-/// The motion of a body that springs cannot stop, which bear these forces.
+/// The motion of a body that springs with these forces cannot stop.
 Mechanism motion_of(const VectorXd &bears, const std::vector<NodeState> &states,
                     Index components)
 {
@@ -266,12 +265,12 @@ Mechanism motion_of(const VectorXd &bears, const std::vector<NodeState> &states,
    return mechanism;
 }
 
-/// Holds the rigid motions by weak springs, ever weaker ones, each unstretched where the one
-/// before let the bodies go. Where the last three bear the same force and a body slides at a
-/// closed node, it moves on and on (if springs can tell). Else the place where they hold the
-/// bodies is close to an answer without them, or, where they bear nothing, is one
-/// (a pivot, balanced so that only round-off would decide which way it leans, stays where it
-/// is).
+/// Holds the rigid motions by weak springs, then by weaker and weaker ones. Each spring is
+/// unstretched where the one before let the bodies go. If the last three springs carry the same
+/// force and a body slides at a closed node, the body moves without end (if springs can show
+/// it). Otherwise the place where the springs hold the bodies is close to an answer without
+/// springs. If the springs carry no force the place is itself an answer. (A balanced pivot, for
+/// which only round-off would decide to which side it leans, stays where it is.)
 OnSprings put_on_springs(Increment &at)
 {
    FrictionSystem &s = at.system;
@@ -283,8 +282,8 @@ OnSprings put_on_springs(Increment &at)
    own << problem.A().diagonal(), problem.C().diagonal();
    const double soft = own.minCoeff(), mean = own.mean();
    // Springs prove something only if they are weak against the softest node, and yet above the
-   // round-off of the stiffest one.
-   // Above critical friction a body that slides may as well lock itself.
+   // round-off of the stiffest one. Above critical friction a sliding body may also lock
+   // itself.
    const bool tell = soft > 1e-6 * own.maxCoeff() && s.above_critical(at.start.p) < 0;
    VectorXd anchor = at.start.displacements();
    const VectorXd loads = with_one(at.multipliers);
@@ -320,8 +319,7 @@ OnSprings put_on_springs(Increment &at)
       const double size = bears.cwiseAbs().maxCoeff();
       found.bear_nothing = size <= s.settings.tolerance * at.reference;
       if (found.bear_nothing) { break; }
-      // 4. If the force of the springs does not change any more, the bodies would move without
-      // end.
+      // 4. If the force of the springs no longer changes, the bodies would move without end.
       const VectorXd before = std::exchange(borne, bears);
       const bool same = tell && before.size() > 0 && size > 1e-9 * at.reference &&
                         (bears - before).cwiseAbs().maxCoeff() <= 0.01 * size;
@@ -343,7 +341,7 @@ Mechanism find_spinning(Increment &at)
    {
       return {};
    }
-   // 1. The contact without friction, which could not bear the torque.
+   // 1. The contact without friction, which could not carry the torque.
    auto without = std::make_shared<ReducedProblem>(problem);
    set_friction(*without, 0);
    const MatrixXd Z = rigid_slips(problem);
@@ -416,16 +414,16 @@ bool may_slide(const Increment &at)
 namespace
 {
 
-/// Moves a body that slips wherever it touches to where it has moved the least, by the length
-/// of the contact, that its states ask for, as where the last node that stuck let go. (Friction
-/// in the disc: not asked.)
+/// Moves a body that slips at all nodes where it touches to the place of least motion that its
+/// states allow, measured along the length of the contact: where the last sticking node let go,
+/// for instance. (Not for friction in the disc.)
 void move_least(Increment &at)
 {
    const FrictionSystem &s = at.system;
    if (s.c != 1) { return; }
    const MatrixXd free = free_motions(s.problem, at.status);
    if (free.cols() == 0) { return; }
-   // Rows that only move one way: slip and gaps.
+   // Rows that can move in one direction only: slip and gaps.
    std::vector<Index> bounded;
    std::vector<double> way;
    for (Index i = 0; i < s.n; ++i)
@@ -443,7 +441,7 @@ void move_least(Increment &at)
    VectorXd from = at.start.displacements();
    from.tail(s.n) = -s.problem.gap;
    VectorXd u = at.u;
-   // Twice: what it had moved before may have been large.
+   // Done twice, because the motion before may have been large.
    for (int k = 0; k < 2; ++k)
    {
       const VectorXd moved = u - at.start.displacements();

@@ -85,15 +85,15 @@ bool find_end(Increment &at, bool thorough = true)
 }
 
 /// Displacements may be so large that round-off hides the forces. Then either a body slides
-/// away, with an imbalance that no residual shows, or the loads do not push it, and any place
-/// of it is a solution.
+/// away, with an imbalance that no residual shows, or the loads do not push the body, and any
+/// place is a solution.
 bool runs_away(Increment &at)
 {
    return at.report.round_off > may_hide_sliding &&
           (moves_away(at) || at.springs->bear_nothing);
 }
 
-/// Free bodies whose springs bear nothing, as under loads that balance each other, stay where
+/// Free bodies whose springs carry no force, as under loads that balance each other, stay where
 /// the springs hold them.
 bool rests(Increment &at)
 {
@@ -129,7 +129,7 @@ void explain_failure(Increment &at)
          << "the displacements are so large that the contact forces are lost in round-off ("
          << at.cause.lost_in_round_off << " of the largest force)";
    }
-   // If no body can move freely, there is always an equilibrium, at any friction.
+   // If no body can move freely, there is always an equilibrium, with any friction.
    else if (const Index node = s.problem.rigid_motions.cols() > 0 ? s.above_critical(p) : -1;
             node >= 0)
    {

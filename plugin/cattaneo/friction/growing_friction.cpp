@@ -4,7 +4,8 @@
 // Where nothing can move freely the solution without friction is the only one, and all
 // solutions with a share of friction are bounded. The solutions that are connected to the first
 // one therefore reach all of friction (Leray and Schauder). Above critical friction they may do
-// so on a path that turns back on its way, so that it is followed by its length.
+// so on a path on which friction decreases for a while, so that the path is followed by its
+// length.
 
 #include <cattaneo/friction/methods.hpp>
 #include <cmath>
@@ -24,7 +25,7 @@ namespace
 {
 
 /// The smaller of two numbers, with its derivatives. The bend where they are equal is rounded
-/// off by so much [Chen 1993].
+/// off by this amount [Chen 1993].
 struct Smaller
 {
    double value, by_a, by_b;
@@ -105,7 +106,8 @@ private:
    Index factors_ = 0;
 };
 
-/// The laws of all nodes at x, in units of the largest load. The increment moves there.
+/// Evaluates the laws of all nodes at x, in units of the largest load, and moves the increment
+/// to x.
 VectorXd GrowingFriction::laws(const VectorXd &x)
 {
    at_.u = x.head(N_).cwiseProduct(unit_);
@@ -120,7 +122,7 @@ VectorXd GrowingFriction::laws(const VectorXd &x)
    return R / at_.scale();
 }
 
-/// Their derivative where the increment stands, with a last row of zeros.
+/// Their derivative at the present place of the increment, with a last row of zeros.
 MatrixXd GrowingFriction::derivative(const VectorXd &x)
 {
    const double share = x[N_];
@@ -160,7 +162,8 @@ MatrixXd GrowingFriction::derivative(const VectorXd &x)
    return J;
 }
 
-/// How far off the path a point is: 1 where the error of forces is the rounding of the laws.
+/// Distance of a point from the path; 1 if the error of forces is as large as the rounding of
+/// the laws.
 double GrowingFriction::error(const VectorXd &laws, double share) const
 {
    return laws.norm() * at_.scale() / (rounding_.minCoeff() * (1 - share));
@@ -191,8 +194,8 @@ bool GrowingFriction::begin(VectorXd &x)
    return false;
 }
 
-/// Newton's steps across the direction `along`, back to the path. False if they do not come
-/// there soon.
+/// Newton's steps across the direction `along`, back to the path. False if they do not reach it
+/// soon.
 bool GrowingFriction::correct(VectorXd &x, const VectorXd &along, bool &easily)
 {
    double before = std::numeric_limits<double>::infinity();

@@ -37,7 +37,8 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
       F = state.forces() - s.problem.clamped_forces(state.multipliers);
    }
    else { F = s.product->times(u); }
-   // So does initial slip, but not slip from which displacements of other nodes follow.
+   // Initial slip loads the contact too, but not slip from which displacements of other nodes
+   // follow.
    reference = std::max(reference, F.cwiseAbs().maxCoeff());
    F += f;
    swept = {u, status};
@@ -184,7 +185,7 @@ bool Increment::ends_here()
 {
    next = end();
    const bool obeyed = system.obeys_laws(start.v, next, scale(), report);
-   // The solution moves so far that its forces cannot be told from round-off.
+   // The solution moves so far that its forces cannot be distinguished from round-off.
    if (report.round_off >= lost && report.round_off < 0.1)
    {
       cause.lost_in_round_off = report.round_off;

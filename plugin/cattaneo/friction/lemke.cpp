@@ -44,7 +44,7 @@ public:
          solve_by_lemke(equations_, problem_, u - stuck_, F, slack, ++seed_);
       s_.counters.pivots += found.pivots;
       s_.counters.dense_factorisations += equations_.factorisations() - factorisations;
-      // As many operations as solving and searching take.
+      // The number of operations that solving and searching take.
       const double N = static_cast<double>(s_.K.rows());
       operations_ += N * N * N + static_cast<double>(found.pivots + 1) * (8 * N * N + 1e4);
       if (!found.solved) { return false; }
@@ -65,7 +65,7 @@ private:
 
 } // namespace
 
-/// From the state at the start of the increment, which is a solution at other loads.
+/// Starts from the state at the start of the increment, which is a solution at other loads.
 Search lemke(Increment &at)
 {
    const FrictionSystem &s = at.system;
@@ -85,15 +85,17 @@ Search lemke(Increment &at)
    return Search::not_here;
 }
 
-/// From random displacements, ever further away, in units of what the loads do to a node alone:
-/// as many as so many operations allow (1e9: about a second). The generator is seeded afresh,
-/// so that equal increments start alike.
+/// Starts from random displacements at growing distances. The unit of distance is the
+/// displacement that the loads cause at a node alone. The number of starts is limited by the
+/// number of operations (1e9, about a second). The generator is seeded afresh, so that equal
+/// increments start alike.
 Search lemke_from_afar(Increment &at)
 {
    FrictionSystem &s = at.system;
    // Without friction there is one answer, and all starts lead to it.
    if (s.frictionless()) { return Search::not_here; }
-   // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
+   // A body that drifts away is unlikely to have an equilibrium elsewhere, so the search for
+   // one is shorter.
    const double operations = moves_away(at) ? 1e8 : 1e9;
    const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();
    constexpr int most = 500;
@@ -109,9 +111,9 @@ Search lemke_from_afar(Increment &at)
       VectorXd u = at.start.displacements();
       for (Index row = 0; row < u.size(); ++row) { u[row] += size * far[row] * some(); }
       at.move_to(u, at.start.status);
-      // 2. The states in which the natural map takes them; every other time any states, as
-      // there are solutions to which the first kind of departure hardly ever leads: a free body
-      // that hangs on one node alone goes as far as its lever is short.
+      // 2. The states that the natural map gives them; every second time any states. To some
+      // solutions departures of the first kind hardly ever lead: a free body on a single
+      // sticking node moves the farther, the shorter its lever is.
       std::vector<NodeState> states(s.n);
       for (Index i = 0; i < s.n; ++i)
       {

@@ -46,7 +46,7 @@ Marched marched_part(const LoadHistory &history, const MarchSettings &settings, 
    return part;
 }
 
-/// Difference between two marches of the same pieces, by nodes and by pieces, so that
+/// Difference between two marches of the same pieces, summed over nodes and pieces so that
 /// differences do not cancel.
 double apart(const Losses &one, const Losses &other)
 {
@@ -150,7 +150,7 @@ double LossCheck::difference() const
 }
 
 /// In the plane: compares with the exact path itself. False, with or without a difference, if
-/// the path was not followed to the end or had increments of its own.
+/// the path was not followed to the end or itself needed increments.
 bool LossCheck::bounded(double &apart)
 {
    apart = 0;
@@ -169,10 +169,11 @@ bool LossCheck::bounded(double &apart)
 /// Estimates the error by two more marches with other numbers of increments. The error is of
 /// the first order in the increment or smaller, so the change of the loss about halves from
 /// march to march, and the remaining error is as large as the last change. The estimate is
-/// three times the last change. It is no less than the change before suggests, as the last one
-/// may be small by chance. A share of the work is added for slip within an increment that no
-/// march shows; it is smaller the more nodes share the loss, and zero if all marches agree. The
-/// estimate covered 599 of 600 random problems with two tangential components.
+/// three times the last change. It is not less than the change before suggests, because the
+/// last change may be small by chance. A share of the work is added for slip within an
+/// increment that no march shows; it is smaller the more nodes share the loss, and zero if all
+/// marches agree. The estimate covered 599 of 600 random problems with two tangential
+/// components.
 void LossCheck::estimate(double at_least)
 {
    // 1. Fewer increments show the error as well as more of them, and cost less.

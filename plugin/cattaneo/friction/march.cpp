@@ -41,7 +41,7 @@ void check_loads(const FrictionSolver &solver, const LoadHistory &history,
    const bool at_rest = state.multipliers.isZero(0);
    for (Eigen::Index l = 0; l < loads.size(); ++l)
    {
-      // Late in a history the time of a state has few digits left for its place within a piece.
+      // Late in a long history the time of a state has few digits for its place within a piece.
       const double most = history.multipliers.row(l).cwiseAbs().maxCoeff();
       require(std::abs(loads[l] - state.multipliers[l]) <= 1e-6 * most, "history: load '",
               solver.problem().patterns[l].name, "' is ", loads[l], " at ",

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Where each node last stuck, opened or turned round, see ContactState::slip_origin.
+/// The slip at which each node last stuck, opened or reversed, see ContactState::slip_origin.
 void find_slip_origin(const ContactState &before, ContactState &next)
 {
    const auto n = static_cast<Index>(next.status.size());
@@ -103,7 +103,7 @@ double MarchRecord::add_energies(const ContactState &next, const LoadPiece &piec
                   at_end = conjugates(problem_, next);
    const double dissipation = lost.sum(), work = external_work(next.multipliers, at_end),
                 normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
-   // 1. Add to the row of the history and, within a cycle, to the record that the state has.
+   // 1. Add to the row of the history and, within a cycle, to the record of the state.
    row_.dissipation += dissipation;
    row_.friction_work += friction_work(state_, next);
    row_.external_work += work;
@@ -160,8 +160,8 @@ void MarchRecord::accept(MarchStep &&step, const LoadPiece &piece)
    row_.found_by = increment.found_by;
    report.largest_residual = std::max(
       {report.largest_residual, increment.residual_normal, increment.residual_tangential});
-   // On the exact path a node closes at the event with which the step begins, and its friction
-   // is found to be too large within the step.
+   // Friction above its critical value is noticed in this step. On the exact path the node has
+   // closed at the event with which the step began.
    const ContactState &doubtful = step.exact ? state_ : next;
    const NotUnique from{doubtful.time, doubtful.multipliers, increment.message};
    // 2. Energies, which need the state before.
@@ -185,7 +185,7 @@ void MarchRecord::accept(MarchStep &&step, const LoadPiece &piece)
    if (step.row) { end_row(); }
 }
 
-/// Ends of lines at which contact is cut off in the present state for the first time.
+/// Adds ends of lines at which contact is cut off for the first time in the present state.
 void MarchRecord::find_cut_off()
 {
    for (const CutOffContact &found : cut_off_contact(problem_, state_))
@@ -251,8 +251,8 @@ void MarchRecord::close()
    report.time = state_.time;
    if (changed_ > 0) { report.advance_error = 4 * changed_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy_at_start_;
-   // If the loads get back all the work that they did, all three are at the end round-off of
-   // the work on the way. In a closed elastic cycle they are round-off of the initial energy.
+   // If the loads recover all the work that they did, all three are at the end round-off of the
+   // work during the march. In a closed elastic cycle they are round-off of the initial energy.
    const double most = std::max({losses_.most_work, std::abs(stored), sums_.dissipation,
                                  1e-6 * std::abs(energy_at_start_)});
    const double left = sums_.external_work - stored - sums_.dissipation - sums_.normal_work;

@@ -47,7 +47,7 @@ double SteppedPiece::end_of_step(double time) const
 VectorXd SteppedPiece::multipliers(double time) const
 {
    if (time == loads_.end) { return loads_.to; }
-   // Late in a long history the start of a piece hides the last digits of a time, so equal
+   // Late in a long history the start of a piece takes the last digits of a time, so equal
    // steps are computed from equal shares.
    const double share = (time - loads_.start) / duration(), steps = std::round(share * steps_);
    return loads_.at(time == end_of(steps) ? steps / steps_ : share);
@@ -87,7 +87,7 @@ double MarchRun::share() const
    return end_ > began_ ? std::min(1.0, (state_.time - began_) / (end_ - began_)) : 1.0;
 }
 
-/// `whole`: so far that contact may advance by most of the nodes.
+/// `whole`: solved with all nodes, because contact may advance over most of them.
 MarchStep MarchRun::attempt(double time, bool whole)
 {
    MarchStep trial;
@@ -147,9 +147,10 @@ bool MarchRun::exact_in_one() const
           (state_.q.isZero(0) || state_.q.cwiseAbs().maxCoeff() <= 1e-8 * normal);
 }
 
-/// Loads at `failed` that no contact forces balance drive a motion, and their work along it is
-/// linear in time: there is no equilibrium either from where it exceeds what contact forces can
-/// do. The earliest such time that is known, or `failed`.
+/// If no contact forces balance the loads at `failed`, the loads drive a motion, and their work
+/// along it is linear in time. There is no equilibrium from the time at which this work exceeds
+/// the work that contact forces can do. Returns the earliest known time of this kind, or
+/// `failed`.
 double MarchRun::first_unbalanced(double failed) const
 {
    const Eigen::Index n = problem_.nodes(), slips = problem_.slips();
@@ -161,8 +162,8 @@ double MarchRun::first_unbalanced(double failed) const
       const VectorXd forces = problem_.clamped_forces(piece_.multipliers(failed));
       const Mechanism mechanism = find_mechanism(problem_, forces);
       if (!mechanism.exists) { break; }
-      // 1. By round-off the motion leaves contact forces some work: that of one unit of
-      // pressure, times the pressure there is.
+      // 1. By round-off contact forces do some work along the motion: the work of one unit of
+      // pressure, times the present pressure.
       const VectorXd &motion = mechanism.motion;
       double most = 0;
       for (Eigen::Index i = 0; i < n; ++i)
@@ -175,7 +176,7 @@ double MarchRun::first_unbalanced(double failed) const
          most = std::max(most, motion[slips + i] + problem_.friction[i] * along);
       }
       const double contact = 10 * most * forces.tail(n).lpNorm<1>();
-      // 2. Where the work of the loads is that.
+      // 2. The time at which the work of the loads is as large.
       const double drives = motion.dot(forces) - contact, held = motion.dot(before) - contact;
       if (!(held < 0 && drives > 0)) { break; }
       const double cut = failed - (failed - state_.time) * drives / (drives - held);
@@ -247,7 +248,7 @@ bool MarchRun::step_by_increment(double target, bool exact)
    {
       trial = attempt(target, exact);
       const double step = target - state_.time;
-      // Loads close to one that the solver cannot finish often have a solution.
+      // Loads close to a load at which the solver fails often have a solution.
       const bool stalled = trial.stalled() && step > smallest && !self_similar();
       if (!trial.solved() && !stalled)
       {
@@ -307,8 +308,9 @@ double MarchRun::first_closing(double target)
    return before > state_.time ? before : first_known(after, target);
 }
 
-/// The first of several times, each eight times as far ahead, at which forces are known. Just
-/// after a body has crossed a gap they may be lost in the round-off of its displacement.
+/// The first of several times, each eight times as far ahead as the one before, at which forces
+/// are known. Just after a body has crossed a gap they may be lost in the round-off of its
+/// displacement.
 double MarchRun::first_known(double from, double target)
 {
    while (from < target)
@@ -334,7 +336,8 @@ bool MarchRun::start_path()
    return true;
 }
 
-/// Follows the path to its next event or stop. False, with the reason, if it does not go on.
+/// Follows the path to its next event or stop. False, with the reason, if the path does not go
+/// on.
 bool MarchRun::path_step(std::string &reason)
 {
    // 1. The loads' path leads to the end of the piece, and is followed to the next stop.
@@ -356,7 +359,7 @@ bool MarchRun::path_step(std::string &reason)
       reason = "an event on the path: " + step.increment.message;
       return false;
    }
-   // 3. It is the march's.
+   // 3. The state becomes that of the march.
    step.increment.found_by = path_->found_by();
    step.exact = true;
    step.row = settings_.every_event || step.state.time >= stop;
@@ -366,7 +369,7 @@ bool MarchRun::path_step(std::string &reason)
    return true;
 }
 
-/// Changes of state at the present state, with which a step begins.
+/// Changes of states of nodes in the present state, with which a step begins.
 void MarchRun::note(const std::vector<StateChange> &changes)
 {
    MarchReport &report = record_.report;
@@ -397,7 +400,7 @@ bool MarchRun::equilibria_end()
    return true;
 }
 
-/// From event to event.
+/// Follows the path from event to event.
 bool MarchRun::follow_path()
 {
    // 1. The path begins at an equilibrium.
@@ -419,7 +422,7 @@ bool MarchRun::follow_path()
          halted = state_.time > before ? 0 : halted + 1;
          continue;
       }
-      // 3. If it does not go on, the rest up to the stop may be round-off, …
+      // 3. If the path does not go on, the rest up to the stop may be round-off, …
       const double stop = piece_.end_of_step(state_.time);
       if (stop - state_.time <= 1e-12 * piece_.duration() && stay(stop)) { continue; }
       // 4. … or there may be no equilibrium beyond.
@@ -434,8 +437,8 @@ bool MarchRun::follow_path()
    return true;
 }
 
-/// If the loads stay until a time, an equilibrium stays as well; nodes that slip go on when the
-/// loads move. False if the state is no equilibrium with these loads.
+/// If the loads are constant until a time, an equilibrium is kept as well; slipping nodes go on
+/// when the loads change. False if the state is no equilibrium with these loads.
 bool MarchRun::stay(double target)
 {
    MarchStep same;
@@ -467,7 +470,7 @@ bool MarchRun::march_piece()
    return true;
 }
 
-/// The present piece begins a cycle, and the state stands there.
+/// The present piece begins a cycle, and the state is at its beginning.
 void MarchRun::begin_cycle(bool first_piece)
 {
    // The first cycle is compared with the state at its start.

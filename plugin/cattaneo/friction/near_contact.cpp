@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// With fewer nodes, to use all of them is as fast.
+/// With fewer nodes it is as fast to use all of them.
 constexpr Index many_nodes = 256;
 /// With more eighths too few nodes would be left out.
 constexpr int most_eighths = 6;
@@ -172,7 +172,7 @@ NearContact::NearContact(const ReducedProblem &whole, const SymmetricProduct &ti
       part.patterns.push_back(
          {pattern.name, pattern.control, left.head(part.slips()), left.tail(part.nodes())});
    }
-   // The pattern of round-off. A name that no other pattern has.
+   // The pattern of round-off. Its name is one that no other pattern has.
    std::string name = "round-off";
    for (const LoadPattern &pattern : whole.patterns) { name += pattern.name; }
    part.patterns.push_back(
@@ -193,7 +193,7 @@ bool NearContact::correct(const ContactState &whole)
    ++parts_;
    const VectorXd u = whole.displacements(), f = whole_.clamped_forces(whole.multipliers),
                   stiff = times_K_(u), forces = stiff + f;
-   // The start need not be an equilibrium: an initial slip, for instance.
+   // The start need not be an equilibrium: it may have an initial slip, for instance.
    double elsewhere = 0;
    for (Index k = 0; k < far_.before(eighths_); ++k)
    {

@@ -7,8 +7,8 @@ using Eigen::VectorXd;
 
 NearPath::NearPath(NearContacts &near) : contacts_(near), whole_(near.problem()) {}
 
-/// Goes on from the end of the last step. Every sixteenth step begins anew, against accumulated
-/// round-off.
+/// Continues from the end of the last step. Every sixteenth step begins anew, to remove
+/// accumulated round-off.
 std::optional<NearContacts::Way> NearPath::set_out(const ContactState &state, int eighths)
 {
    constexpr int most_steps = 16;

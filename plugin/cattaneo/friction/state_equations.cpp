@@ -300,7 +300,10 @@ void StateEquations::step(const VectorXd &F, VectorXd &x) const
    for (Index a = 0; a < count; ++a)
    {
       const Border &border = borders_[active_[a]];
-      if (border.in_factor) { y[slot_of_[border.now.row]] = 0; } // the old equation is gone
+      if (border.in_factor)
+      {
+         y[slot_of_[border.now.row]] = 0;
+      } // the old equation no longer exists
    }
    lu_.solve(y);
    for (Index a = 0; a < count; ++a)
@@ -398,7 +401,7 @@ bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
    {
       if (!F.allFinite()) { return false; }
       const VectorXd reachable = round_off(b, x);
-      double largest = 0; // over what is reachable
+      double largest = 0; // over the smallest that can be reached
       for (const Equation &e : equations)
       {
          // Numbers below the smallest normal double have no digits.

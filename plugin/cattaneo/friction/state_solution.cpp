@@ -1,4 +1,4 @@
-// The linear equations that node states stand for, at an increment.
+// The linear equations of node states in an increment.
 
 #include <cattaneo/friction/methods.hpp>
 

@@ -8,8 +8,8 @@ namespace cattaneo
 // How contact advances in an increment. Friction acts on a node from the beginning of the
 // increment in which it closes, not from the moment of closing.
 
-/// True if a node closes and bears a force. A node that only comes to touch, as when a body
-/// rocks onto it, had no friction on the way: its forces are those of an open node.
+/// True if a node closes and carries a force. A node that only comes to touch, as when a body
+/// rocks onto it, had no friction during the increment: its forces are those of an open node.
 bool closes(const ReducedProblem &problem, const ContactState &before,
             const ContactState &after);
 

@@ -71,13 +71,13 @@ bool keep_states_at_rest(StateEquations &equations, const ComplementarityProblem
     strictly, by random amounts of the size `slack` times the largest force, so that no two
     nodes change at once. They are then a solution for some other b.
 
-    The way: b is moved to that of the problem, and the solution follows. Where an inequality of
-    a node becomes an equation, the node changes its state, or the piece of its bound. After a
-    change b may have to move back for a while. On the way a node may carry a little shear
+    The path: b is moved to that of the problem, and the solution follows. Where an inequality
+    of a node becomes an equation, the node changes its state, or the piece of its bound. After
+    a change b may have to move back for a while. On the path a node may carry a little shear
     beyond f p, in separation too, which vanishes at the end. Slip, stick, opening and closing
     are then one change each.
 
-    Not solved if the way ends in a ray, on which no node changes any more (above critical
+    Not solved if the path ends in a ray, on which no node changes any more (above critical
     friction, for instance), if the equations are singular at the start or after a change, or if
     20 n + 100 changes have not led to a solution that meets all inequalities. Another start may
     succeed. */

@@ -25,9 +25,9 @@ double magnitude(const NodeVector &x);
     shakedown use its pieces. Derivatives and wear support Coulomb's law only, and refuse
     another one (require_coulomb()).
 
-    All callers ask for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
-    direction of the disc), and linearise it by its slope there. So no other class depends on a
-    bound that differs from sense to sense or bends with p. */
+    All callers take the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
+    direction of the disc), and linearise it by its slope there. So no other class has to know
+    whether a bound differs from sense to sense or bends with p. */
 class FrictionBound
 {
 public:
@@ -61,7 +61,7 @@ public:
    double slope(double p = 0, double sense = 0) const { return piece(p, sense).slope; }
    /// The larger of the slopes of both senses at that p.
    double steepness(double p) const { return std::max(slope(p, 1), slope(p, -1)); }
-   /// Derivative of the bound itself, which is zero in tension.
+   /// Derivative of the bound itself; zero in tension.
    double derivative(double p, double sense = 0) const
    {
       return at(p, sense) > 0 ? slope(p, sense) : 0.0;
@@ -196,7 +196,8 @@ NodeMove solve_node(const LoneNode &node);
     some loads, below it one for all loads. It is the least mᵀA m/|bᵀm| over the directions m of
     slip (A/|b| where there is one). Two answers, Δx their difference, have Δxᵀ Δq = Δxᵀ A Δx
     and, by Coulomb's law, Δxᵀ Δq <= f |Δp| |Δx| with Δp = bᵀΔx. If that holds along m, stick
-    and slip along m are both answers under a pressure that is large beside them. */
+    and slip along m are both solutions under a pressure that is large compared with their
+    difference. */
 double critical_friction(const LoneNode &node);
 
 /// Distance of a state from a solution of an increment, in forces.
@@ -226,10 +227,10 @@ LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
                     const ContactState &state, const Eigen::VectorXd &forces, double allowed,
                     const Eigen::VectorXd &round_off, const Eigen::VectorXd &slip_error = {});
 
-/// By how much a closed node violates the law of friction. It is the force beyond the bound. If
-/// a slip x does not oppose the force, it is the smaller of the missing force, |q + bound
-/// x/|x||, and the force that the slip itself amounts to. `uncertain` is the error of x: it
-/// excuses an angle of that size, and any angle of a shorter slip.
+/// Violation of the law of friction by a closed node: the force beyond the bound. If a slip x
+/// does not oppose the force, it is the smaller of the missing force, |q + bound x/|x||, and
+/// the slip times the node's own stiffness. `uncertain` is the error of x: it excuses an angle
+/// of that size, and any angle of a shorter slip.
 double slip_violation(const ContactNode &node, double uncertain = 0);
 /// Round-off of displacements of this size.
 double slip_round_off(double size);

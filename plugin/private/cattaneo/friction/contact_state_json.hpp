@@ -16,7 +16,7 @@ nlohmann::json to_json(const ContactState &state);
 ContactState contact_state(const nlohmann::json &j, const std::string &file);
 
 /// Reads a file with this "format". @param what the kind of file that is expected, for
-/// InputError, which also names a key that `read` did not find
+/// InputError, which also names a missing key
 void read_state_file(const std::string &what, const std::string &file,
                      const std::string &format,
                      const std::function<void(const nlohmann::json &)> &read);

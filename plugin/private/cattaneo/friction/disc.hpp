@@ -10,9 +10,9 @@ namespace cattaneo
 struct Increment;
 
 /** Newton's equations of contact with two tangential components a node, where friction is in
-   the disc |q| <= f p. Open nodes bear nothing and are eliminated; closed ones do not move
-   along the normal; those that stick do not move at all. What is left are two unknowns for each
-   node that slips, whose equations are linearised about a direction of slip (DiscSlip).
+    the disc |q| <= f p. Open nodes carry no force and are eliminated. Closed nodes do not move
+    along the normal, and sticking nodes do not move at all. Two unknowns are left for each node
+    that slips. Their equations are linearised about a direction of slip (DiscSlip).
 
     The directions change from step to step, and with them a part of each equation. A step is
     solved by iterations (GMRES, [Saad 1986]) that are preconditioned by the factor of an

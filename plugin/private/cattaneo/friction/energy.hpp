@@ -8,10 +8,10 @@ namespace cattaneo
 /// Work of the forces of a load pattern in the displacements of a state.
 double work(const LoadPattern &pattern, const ContactState &state);
 
-/** How each node (size n) rubs over an increment: the distance |Δv| that it slips, and its
-    nodal pressures at the beginning and the end of that distance. A node that stuck before, or
-    whose slip reverses, sticks first. Its slip begins at the pressure at which friction is
-    exhausted, if its forces change linearly until then. */
+/** The slip path of each node (size n) over an increment: the distance |Δv|, and the nodal
+    pressures at the beginning and the end of this distance. A node that stuck before, or whose
+    slip reverses, sticks first. Its slip begins at the pressure at which friction is exhausted,
+    if its forces change linearly until then. */
 struct Rubbing
 {
    Eigen::VectorXd way, p_from, p_to;

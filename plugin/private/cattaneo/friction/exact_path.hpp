@@ -10,7 +10,7 @@
 namespace cattaneo
 {
 
-/// Adds the nodes of a state that change to other states there.
+/// Adds the nodes of a state that change their states there.
 void list_changes(const ContactState &from, const std::vector<NodeState> &to,
                   std::vector<StateChange> &changes);
 
@@ -64,7 +64,7 @@ public:
    /// Did the last advance() fail because no rates meet the laws, although the equations of the
    /// states could be solved? Then equilibria may end here. A march takes this for their end,
    /// if increments beyond, by a little and to the next stop, both stall. Other failures tell
-   /// nothing about equilibria: there a stall leads to an increment in place of the path.
+   /// nothing about equilibria: after these a stall leads to an increment in place of the path.
    bool ended() const { return last_.ended; }
    const Counters &counters() const { return counters_; }
 
@@ -106,9 +106,9 @@ private:
    } bounds_;
    StateEquations equations_;        // with the bounds of rates
    Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
-   Eigen::VectorXd u_rate_, F_rate_; // over the rest of the way
-   /// Loads at the start and at the end of the way for which u_rate_ and F_rate_ were computed.
-   /// They hold there as long as no node changes its state.
+   Eigen::VectorXd u_rate_, F_rate_; // over the rest of the path
+   /// Loads at the start and at the end of the path for which u_rate_ and F_rate_ were
+   /// computed. They hold there as long as no node changes its state.
    struct
    {
       Eigen::VectorXd from, to;

@@ -14,9 +14,9 @@ struct Mechanism
 {
    bool exists = false;
    /// {v; w} of the contact nodes, largest entry 1. Clamped forces do positive work along it:
-   /// the bodies go the other way.
+   /// the bodies move in the opposite direction.
    Eigen::VectorXd motion;
-   bool slides = false; ///< moves along the contact somewhere (else it only lifts off)
+   bool slides = false; ///< moves along the contact somewhere (if not, it only lifts off)
    bool spins = false;  ///< slides in the circumferential direction somewhere
 };
 
@@ -50,7 +50,7 @@ Mechanism find_spinning(const ReducedProblem &problem,
                         const Eigen::VectorXd &frictionless_pressure,
                         const Eigen::VectorXd &clamped_forces, double negligible = 0);
 
-/// Rigid motions of bodies that touch, which no node that sticks or bears resists.
+/// Rigid motions of bodies that touch, which no sticking or loaded node resists.
 Eigen::MatrixXd free_motions(const ReducedProblem &problem,
                              const std::vector<NodeState> &states);
 

@@ -12,7 +12,7 @@
 namespace cattaneo
 {
 
-// Round-off of forces, relative to the largest: above this value a residual within the
+// Round-off of forces, relative to the largest force. Above this value a residual within the
 // round-off proves nothing,
 constexpr double lost = 1e-6;
 // and above this value it may hide the force that drives a sliding body.

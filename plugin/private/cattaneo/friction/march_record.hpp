@@ -51,10 +51,10 @@ public:
    void accept(MarchStep &&step, const LoadPiece &piece);
    /// Notes that the state has the last loads with an equilibrium.
    void stop(const IncrementReport &failure);
-   /// Adds the last row, the balance of energy, and how far the march came.
+   /// Adds the last row, the balance of energy, and the time that the march reached.
    void close();
    const Losses &losses() const { return losses_; }
-   /// Was a step accepted that is in no row yet?
+   /// Was a step accepted that is not in a row yet?
    bool within_row() const { return row_begun_; }
 
 private:

@@ -11,7 +11,8 @@ enum class Search
 {
    found,    ///< the increment is at the end that was found, with its report
    not_here, ///< another method may find it
-   hopeless ///< no further method is tried: weak springs bear nothing, so only rest is possible
+   hopeless  ///< no further method is tried: weak springs carry no force, so only rest is
+             ///< possible
 };
 
 /// One pass over all nodes, each solved exactly with the others fixed (thesis 3.5, appendix D).
@@ -66,11 +67,11 @@ Search weak_springs(Increment &at);
 /// round-off may hide the motion (runs_away()).
 bool moves_away(Increment &at);
 
-/// For an answer that was found from a distant start: may it be a free body that slides away?
-/// Round-off of such large displacements hides the force that drives the body. It cannot be so
-/// if the nodes that touch or stick hold all bodies. An answer for a body that touched nothing
-/// before is not accepted either, because a march moves it until it touches, and then its
-/// forces are more accurate.
+/// For an answer that was found from a distant start: may it belong to a free body that slides
+/// away? Round-off of such large displacements hides the force that drives the body. It cannot
+/// be so if the nodes that touch or stick hold all bodies. An answer for a body that touched
+/// nothing before is not accepted either, because a march moves it until it touches, and then
+/// its forces are more accurate.
 bool may_slide(const Increment &at);
 
 /// Is the present state the end of the increment? A body that slips at all of its nodes could

@@ -68,9 +68,9 @@ class NearContact
 public:
    using Index = Eigen::Index;
 
-   /// Keeps references to both and a product with K; `far` has left the eighths. InputError if
-   /// the rows that are kept are no reduced problem, because a motion of the bodies hardly
-   /// moves them.
+   /// Keeps references to both and a product with K; `far` has eliminated all but the eighths.
+   /// InputError if the kept rows make no reduced problem, because a motion of the bodies
+   /// hardly moves them.
    NearContact(const ReducedProblem &whole, const SymmetricProduct &times_K,
                const FarFirst &far, int eighths);
 
@@ -90,7 +90,7 @@ public:
    long parts() const { return parts_; }
    /// The state of all nodes that follows `before` if the near nodes' state is `part`.
    ContactState whole(const ContactState &before, const ContactState &part) const;
-   /// Made with these settings when first asked for.
+   /// Made with these settings when first needed.
    FrictionSolver &solver(const FrictionSettings &settings);
    /// Counters of the solver, if there is one.
    Counters counters() const { return solver_ ? solver_->counters() : Counters(); }

@@ -28,7 +28,7 @@ private:
 
    NearContacts &contacts_;
    ExactPath whole_;
-   std::shared_ptr<NearContact> near_; // that the next is a path of
+   std::shared_ptr<NearContact> near_; // the problem of path_
    std::unique_ptr<ExactPath> path_;
    // The near problem's state, as long as its loads hold for that state, and for how many
    // steps.
@@ -39,7 +39,7 @@ private:
    ExactPath *last_ = &whole_; // that was advanced
    Eigen::Index event_ = -1;
    Eigen::VectorXd slip_error_;
-   Counters counters_; // of paths that are gone
+   Counters counters_; // of paths that were discarded
 };
 
 } // namespace cattaneo
