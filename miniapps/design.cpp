@@ -86,7 +86,7 @@ DesignReport search(Study &study, const DesignProblem &problem, const VectorXd &
       if (ends)
       {
          best.status = DesignStatus::stopped;
-         best.message = "the design was asked to stop";
+         best.message = "the design was stopped on request";
          break;
       }
    }
@@ -169,14 +169,14 @@ void design_contact(Study &study)
    stepping.set(settings.march);
    const bool saved = !chosen.file.empty(), own_gap = choice.what() == "gap",
               free = own_gap && choice.profile == "free";
-   study.only_if(saved, {"history", "from"}, "is of --reduced");
-   study.only_if(saved, {"choose"}, "is of --reduced, the scenes have no loads to choose");
+   study.only_if(saved, {"history", "from"}, "goes with --reduced");
+   study.only_if(saved, {"choose"}, "goes with --reduced, the scenes have no loads to choose");
    study.only_if(!saved, {"scene", "loads", "weights", "amplitude", "nodes"},
-                 "is of the scenes, --reduced has its own contact and --history");
+                 "belongs to the scenes, --reduced has its own contact and --history");
    study.only_if(own_gap, {"profile", "curvature"},
-                 "is of a gap that is chosen, --choose and --coat take its place");
-   study.only_if(!choice.coat.empty(), {"zones"}, "is of --coat");
-   study.only_if(choice.profile == "crown", {"powers"}, "is of --profile crown");
+                 "belongs to a gap that is chosen, which --choose and --coat replace");
+   study.only_if(!choice.coat.empty(), {"zones"}, "goes with --coat");
+   study.only_if(choice.profile == "crown", {"powers"}, "goes with --profile crown");
    study.only_if(!free, {"lines"}, "is not for a free profile, which has too many variables");
    study.only_if(
       choice.loads.empty(), {"lines"},

@@ -325,7 +325,7 @@ void lap_joint(Study &study)
    const std::size_t bolts = options.bolts.size();
    study.only_if(!loads.empty(), {"map-friction", "map-width"}, "goes with --map-load");
    study.only_if(!joint.paraview.empty(), {"frame-intervals"}, "goes with --paraview");
-   study.only_if(bolts > 1, {"tightening", "snug"}, "is of several --bolt-positions");
+   study.only_if(bolts > 1, {"tightening", "snug"}, "needs several --bolt-positions");
    stepping.set(joint.settings);
    joint.settings.stop_at_steady_state = !all_cycles;
    if (frictions.empty()) { frictions = {joint.friction}; }

@@ -330,7 +330,7 @@ LimitReport Shakedown::counted(LimitReport report)
    study.counters += report.counters;
    if (report.status == LimitStatus::stopped)
    {
-      // Before the first programme has ended nothing is known of the limit.
+      // Before the first programme has ended, nothing is known of the limit.
       if (!(report.lower < report.upper)) { stopped("a limit was not found yet"); }
       results["bound_lower"] = report.lower;
       results["bound_upper"] = report.upper;

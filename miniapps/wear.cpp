@@ -125,9 +125,9 @@ void wear_contact(Study &study)
    settings.update = update == "piece" ? GapUpdate::piece : GapUpdate::cycle;
 
    study.only_if(!file.empty(), {"history", "cycle-start"},
-                 "is of --reduced, the pad has its own");
+                 "goes with --reduced, the pad has its own");
    study.only_if(file.empty(), {"amplitude", "profile", "flat", "poisson", "nodes", "order"},
-                 "is of the pad, --reduced has its own contact and --history");
+                 "belongs to the pad, --reduced has its own contact and --history");
    WearCase scene;
    if (file.empty())
    {

@@ -33,7 +33,7 @@ struct LoadAxes
    }
 };
 
-/// @param whole false: its conjugate is the part of the contact alone
+/// @param whole false: its conjugate is only the part of the contact
 LoadAxes load_axes(const cattaneo::LoadPattern &pattern, const Units &units, bool whole = true);
 
 } // namespace miniapp

@@ -562,7 +562,7 @@ std::string Options::called(const std::string &name) const
       changed_.count(name) > 0 ||
       std::any_of(given_.begin(), given_.end(),
                   [&](const Given &given) { return given.option->names.name == name; });
-   // A user of a case is told of its keys, also of those that it has not.
+   // For a user of a case, messages name keys, also those that are not in the file.
    const bool of_case = std::any_of(options_.begin(), options_.end(),
                                     [&](const Option &option)
                                     { return option.names.name == name && option.in_cases; });

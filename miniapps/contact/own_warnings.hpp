@@ -51,7 +51,8 @@ std::vector<bool> even_sides(const JointCase &joint);
 
 /// Displacements are small, so that a node presses along its own normal. If this normal is far
 /// from that of the rigid line, for instance beyond a corner of the side, the node holds the
-/// body as no line could. Against any other side this concerns corners of either side.
+/// body as no line could. If the other side is not such a line, the corners of both sides are
+/// checked.
 class SidesThatBear
 {
 public:

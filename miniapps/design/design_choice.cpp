@@ -75,7 +75,7 @@ bool moves_apart(const ReducedProblem &problem)
    return forces.cwiseAbs().maxCoeff() <= 1e-6 * problem.C().cwiseAbs().maxCoeff();
 }
 
-/// The node amid those with the least gap.
+/// The node with the smallest gap, and of several such nodes the one nearest to x = 0.
 Index touching_node(const VectorXd &x, const VectorXd &gap)
 {
    Index node = 0;

@@ -95,7 +95,7 @@ void Shakedown::draw_optimal()
                              coulomb ? "Permissible residual shear, optimal pressures"
                                      : "Optimal residual shear",
                              of_punch("x/a", "arc length"), of_punch("-a q/P", "-q"));
-   // The thesis' shear is positive where Q is.
+   // In the thesis shear is positive in the direction of Q.
    residual.add("shear", x, VectorXd(-traction(residual_q)));
    residual.add("pressure", x, traction(residual_p));
    if (coulomb)

@@ -134,7 +134,7 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    study.value("final_volume", worn_volume(problem, end.depth), "volume worn off");
    study.value("final_depth", end.depth.maxCoeff(), "largest depth");
    study.value("final_pressure_centre", pressure_amid(problem, p, stick),
-               "pressure amid the stick zone");
+               "pressure in the middle of the stick zone");
    study.value("final_loss", settled(end.loss, 1), "loss of a cycle, of the unworn one");
    study.results["final_depths"] =
       std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());

@@ -302,7 +302,7 @@ Eigen::MatrixXi whole_matrix(nb::handle object, const std::string &what, Index r
                width = integer(array.attr("shape")[1]);
    require((rows < 0 || height == rows) && (columns < 0 || width == columns), what,
            " has shape ", shape_of(array), ", must have ", sizes(rows, columns));
-   // As doubles whole numbers do not wrap around. A number that is too large for a double is
+   // As doubles, whole numbers do not wrap around. A number that is too large for a double is
    // out of range too.
    const nb::object exact = numpy.attr("ascontiguousarray")(array, numpy.attr("float64"));
    const auto view = nb::cast<nb::ndarray<const double, nb::c_contig, nb::device::cpu>>(exact);

@@ -385,13 +385,13 @@ TEST(Stop, DerivativesThatAreStoppedAreNotKnown)
    };
    const Gradient gradient = sensitivity.gradient(lost, monitor);
    EXPECT_FALSE(gradient.found);
-   EXPECT_EQ(gradient.message, "it was asked to stop");
+   EXPECT_EQ(gradient.message, "it was stopped on request");
    EXPECT_EQ(told, 5);
    told = 0;
    stop = false;
    const TraceChange along = sensitivity.along(change, monitor);
    EXPECT_FALSE(along.found);
-   expect_input_error([&] { along.of(lost); }, "it was asked to stop");
+   expect_input_error([&] { along.of(lost); }, "it was stopped on request");
    // What throws leaves all as it was.
    stop = false;
    monitor.progress = [](const Progress &progress)

@@ -46,8 +46,8 @@ def test_says_that_it_was_stopped(run):
     got = run("design", *"--goal loss --amplitude 0.5 --scene punch --profile free --nodes 129 --increments 50".split(), code=2,
               launcher=[*STOPPED_AFTER, "4"])
     assert got["status"] == got["design"] == "stopped"
-    assert got["message"] == "the design was asked to stop"
-    assert "asked to stop" in got.output
+    assert got["message"] == "the design was stopped on request"
+    assert "stopped on request" in got.output
 
 
 @pytest.mark.rest
@@ -89,14 +89,14 @@ ROW = "--reduced problems/lap_joint.json --history 'T=0; T=0.02' "
 
 
 @pytest.mark.parametrize("options, words", [
-    ("--choose 'P; Q'", "--choose does nothing in this run: it is of --reduced"),
+    ("--choose 'P; Q'", "--choose does nothing in this run: it goes with --reduced"),
     (ROW + "--choose 'T; P' --coat '0.1 0.5'", "cannot be used together"),
-    ("--coat '0.1 0.5' --profile crown", "--choose and --coat take its place"),
+    ("--coat '0.1 0.5' --profile crown", "which --choose and --coat replace"),
     ("--coat '0.5 0.1'", "must be the least friction and the most"),
     ("--coat '0.5 0.9'", "must include the friction of the problem, 0.3 to 0.3"),
     ("--coat '0.1 0.5' --zones 1000", "no node lies"),
-    ("--zones 3", "--zones does nothing in this run: it is of --coat"),
-    ("--powers 3", "--powers does nothing in this run: it is of --profile crown"),
+    ("--zones 3", "--zones does nothing in this run: it goes with --coat"),
+    ("--powers 3", "--powers does nothing in this run: it goes with --profile crown"),
     ("--profile crown --powers '2 2.5'", "must be whole numbers"),
     ("--profile crown --powers '2 2'", "each once"),
     ("--profile rounded --curvature 1", "--most is the limit of 1/R"),

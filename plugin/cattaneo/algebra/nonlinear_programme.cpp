@@ -211,7 +211,7 @@ ProgrammeSolution solve(const NonlinearProgramme &programme, const ProgrammeSett
    else if (status == User_Requested_Stop)
    {
       solution.outcome = ProgrammeOutcome::stopped;
-      solution.message = "it was asked to stop";
+      solution.message = "it was stopped on request";
    }
    else
    {

@@ -40,7 +40,7 @@ std::optional<double> curves_into_symmetry(const LineChain &chain, bool last, in
    const auto judge = [&](const Vector2d &tangent, double turn)
    {
       const double off = off_axis(tangent, component);
-      // If the angles are round-off there is no curve.
+      // If the angles are round-off, there is no curve.
       if (turn > 1e-9 && off <= 0.25 * turn) { least = std::min(off, least.value_or(off)); }
    };
    // The smooth curve that the last element is a chord of.

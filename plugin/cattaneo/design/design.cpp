@@ -162,7 +162,7 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
    return x.cwiseMax(problem.low).cwiseMin(problem.high);
 }
 
-/// After so many iterations without a better design the search ends. If responses have a kink
+/// After so many iterations without a better design, the search ends. If responses have a kink
 /// at the optimum, Ipopt would go on looking for a smooth one.
 constexpr int patience = 25;
 
@@ -222,7 +222,7 @@ private:
    MarchSettings march_;
    ProgressReport progress_;
    const Index variables_;
-   const MatrixXd limits_; // a column a variable, also where there is none
+   const MatrixXd limits_; // a column per variable, also if it has none
    std::optional<Trial> trial_, best_;
    int iteration_ = 0,
        bettered_ =
@@ -469,7 +469,7 @@ SmoothSolution Design::descend()
       last = solve(programme(&now, radius), y_of(now), 1e-3 * settings_.tolerance, 300);
       last.iterations = k + 1;
       if (last.outcome != ProgrammeOutcome::solved) { return last; }
-      // The programme promises this improvement. If it is below the tolerance the search is
+      // The programme promises this improvement. If it is below the tolerance, the search is
       // done.
       const VectorXd next = x_of(last.y);
       const double promised = objective(now) - unit_ * last.y[variables_];
@@ -578,7 +578,7 @@ void Design::take(const SmoothSolution &solution)
    if (stopped())
    {
       report_.status = DesignStatus::stopped;
-      report_.message = "the design was asked to stop";
+      report_.message = "the design was stopped on request";
    }
    else if (report_.stationarity <= most && report_.complementarity <= most &&
             report_.violation <= most)

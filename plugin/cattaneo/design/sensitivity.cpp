@@ -474,7 +474,7 @@ bool stopped(const Monitor &monitor, ProgressReport &progress, Index done, Index
 {
    progress.note(static_cast<double>(done) / static_cast<double>(all), done);
    if (!monitor.stopped()) { return false; }
-   why = "it was asked to stop";
+   why = "it was stopped on request";
    return true;
 }
 

@@ -12,7 +12,7 @@ double Stress::von_mises() const
 
 Stress stress(const Material &material, const Strain &strain)
 {
-   // In plane stress λ is already the one for free strain across the plane.
+   // In plane stress λ already is the value for a strain that is free across the plane.
    const bool plane = material.state == PlaneState::stress;
    const double mu = material.mu(), spherical = material.lambda() * (strain.xx + strain.yy +
                                                                      (plane ? 0 : strain.zz));

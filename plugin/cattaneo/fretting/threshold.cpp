@@ -83,7 +83,7 @@ ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, dou
    if (excess(critical) <= 0)
    {
       // The crack has stopped before the critical length. Go to shorter cracks until one grows:
-      // growth stops between this length and the next one. If none grows the depth is 0.
+      // growth stops between this length and the next one. If none grows, the depth is 0.
       double depth = critical;
       while (depth > 1e-6 * critical && excess(depth) <= 0) { depth /= ratio; }
       report.arrest_depth =

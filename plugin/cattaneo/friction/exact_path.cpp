@@ -389,7 +389,7 @@ double ExactPath::share_to_event(double stop)
    return share;
 }
 
-/// Share by which the step was too long, if a boundary was passed by more than round-off.
+/// If the step passed a boundary by more than round-off, the share by which it was too long.
 double ExactPath::share_past_event() const
 {
    double back = 0;

@@ -217,8 +217,8 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
 namespace
 {
 
-/// A problem whose rigid motions have springs of one stiffness, which bear nothing at
-/// the displacements `anchor`. Their forces there are one more load pattern.
+/// A problem whose rigid motions have springs of one stiffness, which carry no force at the
+/// displacements `anchor`. Their forces there are one more load pattern.
 ReducedProblem with_springs(const ReducedProblem &problem, double spring,
                             const VectorXd &anchor)
 {
@@ -269,8 +269,8 @@ Mechanism motion_of(const VectorXd &bears, const std::vector<NodeState> &states,
 /// unstretched where the one before let the bodies go. If the last three springs carry the same
 /// force and a body slides at a closed node, the body moves without end (if springs can show
 /// it). Otherwise the place where the springs hold the bodies is close to an answer without
-/// springs. If the springs carry no force the place is itself an answer. (A balanced pivot, for
-/// which only round-off would decide to which side it leans, stays where it is.)
+/// springs. If the springs carry no force, the place is itself an answer. (A balanced pivot,
+/// for which only round-off would decide to which side it leans, stays where it is.)
 OnSprings put_on_springs(Increment &at)
 {
    FrictionSystem &s = at.system;

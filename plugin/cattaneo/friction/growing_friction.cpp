@@ -72,7 +72,7 @@ struct RoundedLaws
    }
 };
 
-/// The path of solutions from no friction to all of it.
+/// The path of solutions from zero friction to full friction.
 class GrowingFriction
 {
 public:
@@ -236,7 +236,7 @@ bool GrowingFriction::turn(const VectorXd &x, VectorXd &along)
 
 bool GrowingFriction::reaches_end(Index most)
 {
-   // 1. The path begins without friction, and goes to more of it.
+   // 1. The path begins without friction, and friction grows.
    VectorXd x = VectorXd::Zero(N_ + 1), along = VectorXd::Unit(N_ + 1, N_);
    x.head(N_) = at_.start.displacements().cwiseQuotient(unit_);
    if (!begin(x)) { return false; }
@@ -273,7 +273,7 @@ bool GrowingFriction::reaches_end(Index most)
 Search growing_friction(Increment &at)
 {
    const FrictionSystem &s = at.system;
-   // Where bodies can move freely nothing bounds the path.
+   // Where bodies can move freely, nothing bounds the path.
    if (s.problem.rigid_motions.cols() > 0) { return Search::not_here; }
    constexpr double operations = 3e9; // a second or two
    const double N = static_cast<double>(s.K.rows());

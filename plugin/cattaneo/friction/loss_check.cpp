@@ -206,8 +206,8 @@ void LossCheck::estimate(double at_least)
                 left = 3 * std::max(last, first / 2) + missed;
    error_.value = std::max(at_least, fewer ? left : first + last + left);
    error_.by = std::string("by marches with ") + others + " increments";
-   // 3. If the changes fall by a constant ratio the series is extrapolated. This holds for
-   // the mean of many nodes, but not for a node that reverses within an increment.
+   // 3. If the changes fall by a constant ratio, the series is extrapolated. This holds for the
+   // mean of many nodes, but not for a node that reverses within an increment.
    const bool halved = std::all_of(counts.begin(), counts.end(),
                                    [&](int count) { return !fewer || count % 4 == 0; });
    const double loss = sum(fine), change = loss - sum(middle),

@@ -164,7 +164,7 @@ void MarchRecord::accept(MarchStep &&step, const LoadPiece &piece)
    // closed at the event with which the step began.
    const ContactState &doubtful = step.exact ? state_ : next;
    const NotUnique from{doubtful.time, doubtful.multipliers, increment.message};
-   // 2. Energies, which need the state before.
+   // 2. Energies, which need the previous state.
    find_slip_origin(state_, next);
    next.dissipation += add_energies(next, piece, step.exact);
    if (piece.cycle > 0) { next.cycle = std::move(state_.cycle); }

@@ -112,7 +112,7 @@ bool MarchRun::is_stopped()
    if (!settings_.monitor.stopped()) { return false; }
    IncrementReport asked;
    asked.status = FrictionStatus::stopped;
-   asked.message = "the march was asked to stop";
+   asked.message = "the march was stopped on request";
    record_.stop(asked);
    return true;
 }

@@ -234,7 +234,7 @@ ZoneBorder Reader::contact_edge(Index in, Index out, Index open_end) const
 }
 
 /// Border between the sticking node `in` and the slipping node `out`, with the far ends of both
-/// zones. Where the front retreats slip does not vanish at it, and its extrapolation is
+/// zones. Where the front retreats, slip does not vanish at it, and its extrapolation is
 /// doubtful.
 ZoneBorder Reader::slip_edge(Index in, Index out, Index stick_end, Index slip_end) const
 {
@@ -488,7 +488,7 @@ Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones)
    };
    doubt(stick.first, -1, stick.from);
    doubt(stick.last, 1, stick.to);
-   // Where slip changes its direction a single node sticks, even if the bodies have no stick
+   // Where slip changes its direction, a single node sticks even if the bodies have no stick
    // zone there.
    if (stick.first != stick.last) { return stick; }
    for (const Index step : {-1, 1})

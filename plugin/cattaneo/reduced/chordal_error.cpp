@@ -24,7 +24,7 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
    std::vector<bool> bears(p.size());
    for (Index i = 0; i < p.size(); ++i) { bears[i] = p[i] > 0 || open[i] < 0; }
    std::optional<VectorXd> found;
-   // The sets of nodes settle in a few rounds. If they cycle the last one is taken.
+   // The sets of nodes settle in a few rounds. If they cycle, the last one is taken.
    for (int round = 0; round < 50; ++round)
    {
       std::vector<int> closed, free;

@@ -289,7 +289,7 @@ Pairing pair_surfaces(const ContactSurface &surface1, const ContactSurface &surf
    for (Eigen::Index i = 0; i < surface1.size(); ++i)
    {
       const SurfaceNode &one = surface1.nodes[i], &other = surface2.nodes[found.partner[i]];
-      // Middles of edges face each other with the ends of their edges.
+      // If the middles of two edges face each other, the ends of these edges must do so too.
       std::set<Eigen::Index> ends, its(other.between.begin(), other.between.end());
       for (Eigen::Index end : one.between) { ends.insert(end < 0 ? end : found.partner[end]); }
       require(ends == its, what, ": the node at ", place_text(one.position, Formulation::space),

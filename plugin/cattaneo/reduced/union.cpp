@@ -239,7 +239,7 @@ std::vector<int> at(const std::vector<int> &numbers, const std::vector<int> &of)
 }
 
 /// Relative displacements {v; w} that contact nodes have where loads move held components of
-/// them, a column a pattern; empty: no load does.
+/// them, a column per pattern; empty: no load does.
 MatrixXd moved_contacts(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
                         const Reduction::PatternIndex &index, Index count)
 {

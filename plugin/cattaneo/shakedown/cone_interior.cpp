@@ -394,7 +394,7 @@ ConeSolution InteriorPoints::find()
       if (settings_.goes_on && !settings_.goes_on(solution.iterations))
       {
          solution.outcome = ConeOutcome::stopped;
-         solution.message = "it was asked to stop";
+         solution.message = "it was stopped on request";
          break;
       }
       // 1. Done when all conditions hold.

@@ -27,7 +27,8 @@ double first_positive(double a, double b, double c)
    if (discriminant < 0) { return infinity; }
    const double root = std::sqrt(discriminant);
    if (a > 0) { return b > 0 ? -c / (b + root) : (root - b) / a; }
-   // Opens downwards: positive between its roots, both of the sign of b.
+   // The parabola opens downwards. It is positive between its roots, which both have the sign
+   // of b.
    return b > 0 ? -c / (b + root) : infinity;
 }
 

@@ -111,7 +111,7 @@ struct Way
    /// By how much more, at each node, a marched cycle wears than one that repeats itself. The
    /// reason is that the previous cycle has changed the gap.
    VectorXd lag;
-   double lag_error = 0; ///< of it, after a jump
+   double lag_error = 0; ///< the error of `lag` after a jump
    bool jumped = false;  ///< the last cycles were jumped over
 };
 
@@ -417,9 +417,9 @@ bool WearMarch::look_at(Way &way, double cycles)
    WearCycle cycle =
       cycles_.repeated(contact, way.state.depth, repeats_to(), slow(way), cycles);
    if (!cycle.found()) { return false; }
-   // After a marched cycle the first cycle that is marched here already contains the lag. After
-   // a jump the lag is computed on a gap that grows as in the next cycles, because some nodes
-   // that slip on a growing gap would not slip on a fixed one.
+   // After a marched cycle, the first cycle that is marched here already contains the lag.
+   // After a jump the lag is computed on a gap that grows as in the next cycles, because some
+   // nodes that slip on a growing gap would not slip on a fixed one.
    const VectorXd predicted = way.lag;
    way.lag = cycle.lag;
    way.lag_error = 0;
@@ -503,11 +503,11 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
       best.depth[i] = three.depth[i];
       best.loss[i] = three.loss[i];
    }
-   // A transient is no wear of the jump. After marched cycles it is gone, and after a jump it
-   // comes from the sudden change of the gap.
+   // A transient is no wear of the jump. After marched cycles it has decayed, and after a jump
+   // it comes from the sudden change of the gap.
    const double passing = from.jumped ? 0.0 : std::max(0.0, first.passing - largest(first.lag));
    result.error = result.bend + passing;
-   // The contribution of the changing gap goes with the square of the wear of a cycle.
+   // The contribution of the changing gap is proportional to the square of the wear of a cycle.
    const double slower = best.depth.maxCoeff() / (cycles * first.depth.maxCoeff());
    if (first.depth.maxCoeff() > 0)
    {
@@ -712,7 +712,7 @@ WearReport WearMarch::run()
       if (settings_.march.monitor.stopped())
       {
          report_.status = FrictionStatus::stopped;
-         report_.message = "the wear was asked to stop";
+         report_.message = "the computation of wear was stopped on request";
          break;
       }
       // No jumps if the gap is updated within a cycle: a cycle at a fixed gap does not show

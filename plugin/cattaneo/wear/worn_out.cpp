@@ -128,7 +128,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
       if (settings.monitor.stopped())
       {
          result.status = FrictionStatus::stopped;
-         result.message = "the search was asked to stop";
+         result.message = "the search was stopped on request";
          return result;
       }
       ++result.searches;

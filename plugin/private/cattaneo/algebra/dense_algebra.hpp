@@ -21,7 +21,7 @@ struct SymmetricModes
    Eigen::MatrixXd vectors; ///< orthonormal columns
 };
 SymmetricModes symmetric_modes(const Eigen::MatrixXd &matrix);
-/// The values alone.
+/// Only the values.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &matrix);
 
 /// Combinations of the orthonormal columns of Z that are zero in these rows. Values below 1e-7

@@ -17,7 +17,7 @@ Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd> &A,
 /// C <- C + factor A B
 void add_product(Eigen::Ref<Eigen::MatrixXd> C, const Eigen::Ref<const Eigen::MatrixXd> &A,
                  const Eigen::Ref<const Eigen::MatrixXd> &B, double factor = 1);
-/// S <- S + factor A Aᵀ, in the lower triangle of S alone.
+/// S <- S + factor A Aᵀ, only in the lower triangle of S.
 void add_square(Eigen::Ref<Eigen::MatrixXd> S, const Eigen::Ref<const Eigen::MatrixXd> &A,
                 double factor = 1);
 

@@ -26,7 +26,7 @@ public:
    /// @a S is the condensed stiffness in global components, as it is used. @a motions are
    /// orthonormal columns that S does not resist.
    StiffnessProbes(const Eigen::MatrixXd &S, const Eigen::MatrixXd &motions);
-   /// Motions of the contact, one a column; none if S is no longer definite.
+   /// Motions of the contact, one per column; none if S is no longer definite.
    const Eigen::MatrixXd &motions() const { return u_; }
    /// The bound from differences of forces at these motions, one in each column: 10 √(2/π) max
    /// ‖L⁻¹ d‖; infinite without motions.

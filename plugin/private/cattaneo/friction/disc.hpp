@@ -25,7 +25,7 @@ public:
    using MatrixXd = Eigen::MatrixXd;
    using VectorXd = Eigen::VectorXd;
 
-   /// Discards all of an earlier increment, except data that depend on node states alone.
+   /// Discards all of an earlier increment, except data that depend only on node states.
    void begin();
    /// Moves to the solution of the linear equations of the present states and directions. False
    /// if they are singular.
@@ -46,7 +46,7 @@ private:
    /// The linearised equations of each slipping node, along the trial force and across it.
    struct Linearised
    {
-      Eigen::Matrix2Xd along, across, own; // a column a node; own: stiffness across
+      Eigen::Matrix2Xd along, across, own; // a column per node; own: stiffness across
       VectorXd slope;                      // of the bound with the pressure
    };
 
@@ -61,7 +61,7 @@ private:
    bool iterate(const Linearised &equations, const VectorXd &r, VectorXd &x) const;
    bool solve_slip(Increment &at, const Linearised &equations, const VectorXd &b, VectorXd &x);
 
-   // Data that depend on node states alone are kept from increment to increment.
+   // Data that depend only on node states are kept from increment to increment.
    std::vector<signed char> is_open_; // for each node; empty: nothing is eliminated yet
    std::vector<Index> open_, closed_; // rows of K: all components of the open, closed nodes
    std::vector<Index> place_;         // of a closed node's first component among `closed_`

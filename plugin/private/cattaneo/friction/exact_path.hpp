@@ -54,7 +54,7 @@ public:
    /// Node that reached the boundary of its state at the end of the last advance(); -1: none
    /// did.
    Eigen::Index event() const { return last_.event; }
-   /// Error of each node's slip in the last advance(): the round-off of the state before,
+   /// Error of each node's slip in the last advance(): the round-off of the previous state,
    /// amplified by the conditioning of the equations.
    const Eigen::VectorXd &slip_error() const { return last_.slip_error; }
    /// Why the last advance() failed, in a sentence (see docs/increments.md).

@@ -22,7 +22,7 @@ struct Mechanism
 
 /// Work of the edges of the friction cones in the motions Z = {v; w} (a column each). Each
 /// tangential component of each node has two columns: the pressure 1 with the force of the
-/// bound in either sense. Without tangential rows in Z both are the pressure alone.
+/// bound in either sense. Without tangential rows in Z both are just the pressure.
 Eigen::MatrixXd cone_edges(const Eigen::MatrixXd &Z, const std::vector<FrictionBound> &bound);
 
 /** Can contact forces inside the friction cones (p >= 0, |q| <= f p) balance the given clamped
@@ -56,8 +56,8 @@ Eigen::MatrixXd free_motions(const ReducedProblem &problem,
 
 /** The relative displacement {v; w} at which bodies that nothing holds and that touch nothing
     come to rest when the given clamped forces {q; p} begin to push them. They move as rigid
-    bodies, and without friction, as nothing presses yet, until their contacts bear these
-    forces. Of several such places the nearest one is taken,
+    bodies, and without friction (no node presses yet), until their contacts carry these forces.
+    Of several such places the nearest one is taken,
 
         min |c - t d|,  W c + g >= 0,
 

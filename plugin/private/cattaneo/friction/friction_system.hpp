@@ -52,7 +52,7 @@ struct StiffnessProduct
    RoundOff arithmetic;
 };
 
-/// Each node alone.
+/// Each node on its own.
 struct LoneNodes
 {
    Eigen::VectorXd kt, kn;   // own stiffness (disc: kt is its mean)

@@ -23,7 +23,7 @@ Search gauss_seidel(Increment &at);
 /// Semismooth Newton from the start, in the plane after a few sweeps. Node states give linear
 /// equations, and their solution gives new states.
 Search active_set(Increment &at);
-/// From the present states alone.
+/// From nothing but the present states.
 bool newton(Increment &at);
 /// Takes the states that follow from the present displacements and forces, with one tangent or
 /// none. @return how many nodes changed their state
@@ -40,14 +40,14 @@ Search lemke_from_afar(Increment &at);
 /// Two tangents: Newton with parts of the loads, each from the end of the one before.
 Search growing_load(Increment &at);
 /// Two tangents, where nothing can move freely: follows the solutions with a share of friction,
-/// and with rounded laws, from no friction to all of it.
+/// and with rounded laws, while friction grows from zero to its full value.
 Search growing_friction(Increment &at);
 /// Two tangents: Newton's method on the natural map with a line search, from the start of the
 /// increment and from random places about it.
 Search damped_newton(Increment &at);
 
-/// Two tangents: Newton's steps from the states in which the natural map has the nodes. An
-/// answer that may be a free body that slides away does not count (may_slide()).
+/// Two tangents: Newton's steps from the node states that the natural map gives. An answer that
+/// may be a free body that slides away does not count (may_slide()).
 bool ends_from_natural_states(Increment &at);
 /// Operations of one of Newton's steps with N displacements.
 inline double disc_step_operations(double N)
@@ -63,7 +63,7 @@ bool find_end_quickly(Increment &at);
 /// solution (rest).
 Search weak_springs(Increment &at);
 /// Does a body drift or spin away, according to weak springs? Checked once in an increment. If
-/// no end is found this is the reason. If an end is found nevertheless it counts, unless
+/// no end is found, this is the reason. If an end is found nevertheless it counts, unless
 /// round-off may hide the motion (runs_away()).
 bool moves_away(Increment &at);
 
@@ -81,7 +81,7 @@ bool ends_with_least_motion(Increment &at);
 /// Moves to the solution of the linear equations of the present states. False if they are
 /// singular.
 bool solve_for_states(Increment &at);
-/// The same for the gaps alone, without friction or if slip does not change the pressure.
+/// The same only for the gaps, without friction or if slip does not change the pressure.
 bool solve_normal(Increment &at);
 /// True if displacements are much smaller than the larger ones from which they were computed,
 /// so that round-off is a large part of them. Measured with the nodes' own stiffness; K: its

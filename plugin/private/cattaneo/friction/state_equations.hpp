@@ -77,10 +77,10 @@ public:
    /// finite.
    bool solve(const Eigen::VectorXd &b, Eigen::VectorXd &x, Eigen::VectorXd &F);
 
-   /** The adjoint of solve(): of a value with derivatives g by x, size of K, the derivatives
-       -z by b, which is what z forces do on its way through the equations, and those -y by what
-       is added to the equation of each row, zero in rows without one: z = Eᵀ y where the
-       equations are E F = 0. Where a row has an equation g - K z is zero, to round-off. */
+   /** The adjoint of solve(), for a scalar value with the derivatives g by x (size of K). Its
+       derivatives by the forces b are -z. Its derivatives by a term that is added to the
+       equation of a row are -y, zero in rows without an equation. If the equations are E F = 0,
+       then z = Eᵀ y. In rows with an equation g - K z is zero, to round-off. */
    void solve_transposed(const Eigen::VectorXd &g, Eigen::VectorXd &y,
                          Eigen::VectorXd &z) const;
 
@@ -161,8 +161,8 @@ private:
    std::vector<Border> borders_;         // all rows bordered since M₀ was factored
    std::vector<Eigen::Index> border_of_; // of each row of K, -1: none
    std::vector<Eigen::Index> active_;    // those that M₀ needs at present
-   Eigen::MatrixXd W_;                   // M₀⁻¹ P, a column a border
-   Eigen::MatrixXd Q_;                   // transposed, a column a border that is present
+   Eigen::MatrixXd W_;                   // M₀⁻¹ P, a column per border
+   Eigen::MatrixXd Q_;                   // transposed, a column per border that is present
    Eigen::MatrixXd products_;            // D - Q M₀⁻¹ P
    DenseLU corner_;                      // of its active rows and columns
    bool anew_ = true;

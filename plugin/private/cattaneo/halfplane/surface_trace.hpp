@@ -42,7 +42,7 @@ public:
    /// The mirror image on the other side of the origin: x becomes -x.
    SurfaceTrace mirrored() const;
 
-   /// The points of parameters t of an element.
+   /// The points of an element at the parameters t.
    SurfacePoints points(const SurfaceElement &element, const Eigen::VectorXd &t) const;
 
    using Weight = std::function<double(double x)>;

@@ -32,7 +32,7 @@ struct Block
 Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
              const Reduction::PatternIndex &index, const std::vector<LoadPattern> &patterns);
 
-/// Makes a reduced problem of the block, without gaps and friction, with `components` a node.
+/// Makes a reduced problem of the block, without gaps and friction, with `components` per node.
 void take(Block block, int components, ReducedProblem &problem);
 
 /// Index of each body's patterns in `all`. Appends new patterns to `all`.
