@@ -88,7 +88,7 @@ public:
    /// Adds --set, which gives a place in an option another value: KEY=VALUE, with a key as in
    /// command(). It comes after the case file and all other options.
    void add_set();
-   /// Names options that are no part of a case: where results go, or which of them are shown.
+   /// Names options that are not part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
    /// Options that were renamed, as pairs of old and new name. The old names are refused with

@@ -110,7 +110,7 @@ struct LoopFigures
 LoopFigures figures(const cattaneo::ReducedProblem &problem,
                     const cattaneo::MarchReport &report, const cattaneo::CycleRecord &cycle,
                     std::size_t load);
-/// Work of all loads in a cycle, without round-off likewise.
+/// Work of all loads in a cycle; 0 if it is round-off of the energies.
 double external_work(const cattaneo::ReducedProblem &problem,
                      const cattaneo::MarchReport &report, const cattaneo::CycleRecord &cycle);
 

@@ -42,7 +42,7 @@ std::string cell(const ordered_json &value, const Column &column)
    return text(column.format.c_str(), value.get<double>());
 }
 
-/// A value in a CSV file; anything that is no single value is left out.
+/// A value in a CSV file. Anything that is not a single value is left out.
 std::string field(const ordered_json &value)
 {
    if (value.is_string()) { return cattaneo::csv_field(value.get<std::string>()); }

@@ -125,7 +125,7 @@ void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
       std::string straight;
       for (int b : face.bodies)
       {
-         // Round-off of coordinates is no curve.
+         // Round-off of coordinates does not make a curve.
          const bool smooth = b >= 0 && b < static_cast<int>(sides.size()) &&
                              !joint.bodies[b].as_meshed &&
                              sides[b].most > 1e-5 * face.spacing.mean();
@@ -313,7 +313,7 @@ SidesThatBear::SidesThatBear(const InterfaceReport &interface,
             const Eigen::Vector2d before = (place(k) - place(k - 1)).normalized(),
                                   after = (place(k + 1) - place(k)).normalized();
             const double turn = angle_of(before.dot(after));
-            // The angle between the edges of a circle of twelve nodes.
+            // 30 degrees is the angle between the edges of a circle of twelve nodes.
             if (turn < 30.5) { continue; }
             for (Eigen::Index i = 0; i < interface.nodes; ++i)
             {

@@ -50,7 +50,8 @@ double worn_extent(double flat, double c, double shear)
    return high;
 }
 
-/// Grid of a contact line |x| < span of so many elements, finer toward ±c, where slip begins.
+/// Grid of a contact line |x| < span with the given number of elements, finer toward ±c, where
+/// slip begins.
 std::vector<double> grid_about(double c, double span, int elements)
 {
    const int outer = std::max(2, elements / 5), inner = elements / 2 - outer;

@@ -94,7 +94,7 @@ private:
       return [base, exponent = signed_power()](const double *x)
       { return std::pow(base(x), exponent(x)); };
    }
-   /// A number, a variable, a function or what stands in brackets.
+   /// A number, a variable, a function or an expression in brackets.
    Value single()
    {
       after_number_ = false;

@@ -17,7 +17,7 @@ namespace
 
 using Eigen::Index;
 
-/// Puts rows at their positions in a matrix of so many rows, with zeros elsewhere.
+/// Puts rows at their positions in a larger matrix, with zeros elsewhere.
 void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index rows)
 {
    const Eigen::MatrixXd dense = std::move(M);

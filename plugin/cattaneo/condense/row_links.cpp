@@ -120,7 +120,7 @@ std::optional<AloneDirection> alone_direction(const SparseView &K, int x, int y)
       if (std::abs(n.dot(entries)) > 1e-12 * longest) { return std::nullopt; }
    }
    const double size = block.norm(), diagonal = n.dot(block * n);
-   // A bar at an angle has no stiffness across its direction, and is no support.
+   // A bar at an angle has no stiffness across its direction, and is not a support.
    if (std::abs(t.dot(block * n)) > 1e-12 * size || diagonal <= 1e-14 * size)
    {
       return std::nullopt;

@@ -57,7 +57,7 @@ private:
    std::vector<EdgeBend> all_bends() const;
    std::vector<EdgeBend> of_edges(const std::vector<EdgeBend> &all) const;
 
-   /// A turn that is no larger is one of round-off.
+   /// A smaller turn is due to round-off.
    double flat(int i) const { return steady_[i] ? round_off : flat_; }
    int last() const { return static_cast<int>(x_.size()) - 1; }
    bool within(int i) const { return curve_[i - 1] >= 0 && curve_[i - 1] == curve_[i]; }
@@ -233,7 +233,7 @@ void OpenSide::join_curves()
 }
 
 /// Finds corners by the angle, and by comparison with the vertices beside them. False if a
-/// corner is within a curve of the file, which then is no curve.
+/// corner is within a curve of the file, which then is not a curve.
 bool OpenSide::find_corners()
 {
    corner_.assign(x_.size(), false);
@@ -493,7 +493,7 @@ void OpenSide::classify()
    distinct_ = corner_;
    find_short_runs();
    drop_profile();
-   find_short_runs(); // of the edges that are no profile
+   find_short_runs(); // of the edges that are not part of a profile
    find_joints();
 }
 

@@ -162,8 +162,8 @@ VectorXd toward(const DesignProblem &problem, const VectorXd &start, const Vecto
    return x.cwiseMax(problem.low).cwiseMin(problem.high);
 }
 
-/// After so many iterations without a better design, the search ends. If responses have a kink
-/// at the optimum, Ipopt would go on looking for a smooth one.
+/// The search ends after this number of iterations without a better design. If responses have a
+/// kink at the optimum, Ipopt would go on looking for a smooth one.
 constexpr int patience = 25;
 
 /// One choice of variables and its results. `known` is false, with a message, if a case has no

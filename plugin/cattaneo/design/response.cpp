@@ -206,7 +206,7 @@ Response Responses::peak_pressure(std::size_t k) const
    Index peak = 0;
    for (Index i = 1; i < p.size(); ++i)
    {
-      // p over weight, but for nodes on an axis, which have none.
+      // p over weight, except for nodes on an axis, which have no weight.
       if (p[i] * problem_.weights[peak] > p[peak] * problem_.weights[i]) { peak = i; }
    }
    return pressure(k, peak);

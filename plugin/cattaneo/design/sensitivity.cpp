@@ -135,7 +135,7 @@ struct Sensitivity::System
    // The derivative of increment k, which both ways use.
    /// Forces with the contact nodes clamped by each change of stiffness, one column each.
    MatrixXd clamped_by_stiffness(std::size_t k) const;
-   /// Conjugates of the loads likewise, at given displacements.
+   /// The same for conjugates of the loads, at given displacements.
    MatrixXd conjugates_by_stiffness(std::size_t k) const;
    /// Derivative of each node's tangential equation by its coefficient of friction.
    VectorXd equations_by_friction(std::size_t k) const;

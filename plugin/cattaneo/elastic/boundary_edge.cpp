@@ -65,7 +65,7 @@ Eigen::Vector2d BoundaryEdge::tangent(double s)
 const mfem::IntegrationRule &BoundaryEdge::rule(int order) const
 {
    // On a straight edge the rule is exact for a shape function times a load of degree 12. On a
-   // curved one the length of the derivative is no polynomial, so many points are taken. That
+   // curved one the length of the derivative is not a polynomial, so many points are used. That
    // is cheap, because the sum is over the boundary only.
    const int g = degree();
    return mfem::IntRules.Get(mfem::Geometry::SEGMENT,

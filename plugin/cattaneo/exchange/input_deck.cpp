@@ -719,7 +719,7 @@ void DeckReader::surface(const LineReader &in, const std::vector<std::string_vie
          members.insert(members.end(), nodes.begin(), nodes.end());
       }
    }
-   // Analytical surfaces and combinations of surfaces are no parts of a body.
+   // Analytical surfaces and combinations of surfaces are not parts of a body.
    if ((type != "ELEMENT" && !type.empty()) || !keyword_.parameter("COMBINE").empty())
    {
       return;

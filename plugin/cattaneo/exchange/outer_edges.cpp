@@ -114,7 +114,7 @@ const std::map<std::size_t, Solid> solids = {
     {{{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}},
      12}}};
 
-/// Corners of an element with so many nodes; 0: there is none.
+/// Corners of an element with this number of nodes; 0: there is no such element.
 std::size_t corners_of(std::size_t nodes)
 {
    for (const auto &[corners, solid] : solids)

@@ -811,7 +811,7 @@ void read_facts(const NumpyArrays &array, const std::string &file, NodalStiffnes
    }
 }
 
-/// The first line that is no comment of ABAQUS tells what an .mtx is.
+/// The first line that is not a comment of ABAQUS shows the format of an .mtx file.
 enum class MtxForm
 {
    matrix_market,

@@ -358,8 +358,9 @@ double ExactPath::share_to_event(double stop)
    for_each_boundary(
       [&](Index i, double sense)
       {
-         // A boundary that is reached exactly at the stop, to round-off, is no event before it:
-         // a node that comes back to its friction limit when the load turns has not slipped.
+         // A boundary that is reached exactly at the stop, to round-off, is not an event before
+         // it: a node that comes back to its friction limit when the load turns has not
+         // slipped.
          const double value = left(i, sense), change = rate(i, sense);
          if (value + stop * change >= -noise_[i]) { return; }
          const double to = std::max(value, 0.0) / -change;

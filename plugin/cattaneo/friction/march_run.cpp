@@ -386,7 +386,7 @@ bool MarchRun::equilibria_end()
    if (beyond >= piece_.end()) { return false; }
    const MarchStep trial = attempt(beyond);
    if (trial.solved()) { return false; }
-   // Finding no equilibrium is no proof: so small a load may be below round-off, and above
+   // A search that fails is not a proof: so small a load may be below round-off, and above
    // critical friction a search may miss one. If the path ends and none is found with a larger
    // load either, there is none in between.
    const bool proven =
@@ -438,7 +438,7 @@ bool MarchRun::follow_path()
 }
 
 /// If the loads are constant until a time, an equilibrium is kept as well; slipping nodes go on
-/// when the loads change. False if the state is no equilibrium with these loads.
+/// when the loads change. False if the state is not an equilibrium with these loads.
 bool MarchRun::stay(double target)
 {
    MarchStep same;

@@ -28,7 +28,7 @@ MoreDigits log_sum(MoreDigits R, MoreDigits t, MoreDigits a_squared)
 {
    return t < 0 ? std::log(a_squared / (R - t)) : std::log(R + t);
 }
-/// 1/(R + t) likewise.
+/// 1/(R + t) in the same way.
 MoreDigits inverse_sum(MoreDigits R, MoreDigits t, MoreDigits a_squared)
 {
    return t < 0 ? (R - t) / a_squared : 1 / (R + t);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 // The kernels are derivatives of r and of d (ln r)/2: x²/r³ = ∂²r/∂y², x y/r³ = -∂²r/∂x∂y and
-// x/r² = ∂(ln r)/∂x, where ln r is the divergence of d (ln r)/2 but for a constant. Each
+// x/r² = ∂(ln r)/∂x, where ln r is the divergence of d (ln r)/2 except for a constant. Each
 // derivative makes an integral over a polygon one along its edges (divergence theorem), where
 // the outward normal times the length of an edge e is (e_y, -e_x). So integrals over two
 // polygons become integrals over pairs of edges. The way from one to the other runs over a

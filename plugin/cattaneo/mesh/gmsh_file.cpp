@@ -38,7 +38,7 @@ public:
    /// An integer of 8 bytes.
    long large() { return number<std::uint64_t, long>(); }
    double real() { return number<double, double>(); }
-   /// A count of items, which is an error if the file cannot hold so many.
+   /// A count of items. It is an error if the file is too short for that many.
    long count(long value)
    {
       require(value >= 0 && value <= size_, "mesh file has a count of ", value, " in ",

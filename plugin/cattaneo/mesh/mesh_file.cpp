@@ -196,7 +196,7 @@ void check_mfem(std::istream &in, long size)
    edges.check();
 }
 
-/// Reason why an element of Gmsh is no element of a plane body.
+/// Reason why an element of Gmsh cannot belong to a plane body.
 std::string why_not(long type)
 {
    static const std::map<std::string, std::set<long>> solids = {
@@ -242,7 +242,7 @@ void check_gmsh(const GmshMesh &mesh)
    std::vector<long> numbers;
    for (const GmshMesh::Element &element : mesh.elements)
    {
-      // A mesh in space is no plane one, whatever its groups are.
+      // A mesh in space is not plane, whatever its groups are.
       require(gmsh_types().at(element.type).corners > 0, "mesh file has element ",
               element.number, ", ", why_not(element.type));
    }

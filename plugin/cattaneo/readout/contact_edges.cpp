@@ -393,8 +393,8 @@ std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactS
          pair.from = {s[end] - 0.5 * side * h, 0.5 * h};
          pair.to = {s[end] - 1.5 * side * h, 0.5 * h};
       }
-      // The scatter of a fit is no bound, so the error is at least a quarter of a spacing, as
-      // in zones().
+      // The scatter of a fit is not a bound, so the error is at least a quarter of a spacing,
+      // as in zones().
       pair.from.error = std::max(pair.from.error, 0.25 * h);
       pair.to.error = std::max(pair.to.error, 0.25 * h);
       pairs.push_back(pair);

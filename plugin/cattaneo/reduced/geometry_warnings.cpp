@@ -322,7 +322,7 @@ void say_polygon(const Reduction &reduction, const InterfaceReport &face,
          const EdgeBend &bend = *nearest->element->bend;
          const double its = 2 * std::sin(0.5 * (bend.begin + bend.end)) / nearest->length();
          // Seen from the other side the curve turns in the other direction. Without a turn at
-         // either end it is no polygon.
+         // either end it is not a polygon.
          bool fits = edge.curvature[0] || edge.curvature[1];
          for (const std::optional<double> &turns : edge.curvature)
          {

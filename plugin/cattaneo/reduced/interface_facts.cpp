@@ -32,8 +32,8 @@ LineEnd other_end(const MetInterface &met, Index i, bool last)
          }
          const LineNode &other = met.master.line.nodes[k];
          const double beyond = (other.position - node.position).dot(out);
-         // If the other line runs on beyond the slave's last node, its end is elsewhere, unless
-         // the slave goes on as well.
+         // If the other line continues beyond the slave's last node, its end is elsewhere,
+         // unless the slave continues as well.
          const LineChain &own = met.slave.line.chain_of(mortar.nodes[i]);
          const bool at_end =
             mortar.nodes[i] == (last ? own.first + own.nodes - 1 : own.first) && !own.loop;

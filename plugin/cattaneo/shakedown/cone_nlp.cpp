@@ -393,7 +393,7 @@ ConeSolution run_once(const ConeProgramme &programme, const ConeSettings &settin
       solution.outcome = ConeOutcome::unavailable;
       break;
    case ProgrammeOutcome::failed:
-      // Ipopt returned a point all the same. The caller finds out what it proves.
+      // Ipopt returned a point nevertheless. The caller finds out what it proves.
       solution.outcome = ConeOutcome::failed;
    }
    return solution;

@@ -177,7 +177,7 @@ bool balance(const ConeProgramme &programme, ConeMechanism &mechanism)
       return G;
    };
 
-   // In residual forces the condition is Σslip + Mᵀ Σopening = 0 but for a rigid motion.
+   // In residual forces the condition is Σslip + Mᵀ Σopening = 0 except for a rigid motion.
    std::vector<Eigen::MatrixXd> rooms; // of {limit; slip}, by pulls on {opening; slip}
    Eigen::MatrixXd by_slip = Eigen::MatrixXd::Zero(m, m); // Mᵀ times their rows of opening
    Eigen::VectorXd by_opening = Eigen::VectorXd::Zero(n);

@@ -30,7 +30,7 @@ struct Clearance
    double bound = infinity;    ///< of all states, proven by the mechanism of the solution
 };
 
-/// A load factor and the slip that holds it; -infinity if none does.
+/// A load factor and the slip with which the contact carries it; -infinity if no slip does.
 struct Held
 {
    double theta = -infinity;

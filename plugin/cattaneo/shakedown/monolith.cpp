@@ -58,8 +58,8 @@ NodeList nodes_away_from_ends(const ReducedProblem &problem, double share)
            "the nodes away from the ends of the line: the problem has ", arc.size(),
            " arc lengths, must have one for each of its ", n, " nodes");
    const auto &chains = problem.chains;
-   // A loop has no ends, and a plane of symmetry is no end. Beyond such a plane the line goes
-   // on as its mirror image, so that its length counts twice.
+   // A loop has no ends, and a plane of symmetry is not an end. Beyond such a plane the line
+   // goes on as its mirror image, so that its length counts twice.
    const bool loop = chains.size() == 1 && chains[0].loop,
               from_mirror = !chains.empty() && chains.front().mirrored_at(0),
               to_mirror = !chains.empty() && chains.back().mirrored_at(1);

@@ -503,8 +503,8 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
       best.depth[i] = three.depth[i];
       best.loss[i] = three.loss[i];
    }
-   // A transient is no wear of the jump. After marched cycles it has decayed, and after a jump
-   // it comes from the sudden change of the gap.
+   // A transient is not part of the wear of the jump. After marched cycles it has decayed, and
+   // after a jump it comes from the sudden change of the gap.
    const double passing = from.jumped ? 0.0 : std::max(0.0, first.passing - largest(first.lag));
    result.error = result.bend + passing;
    // The contribution of the changing gap is proportional to the square of the wear of a cycle.
@@ -690,7 +690,7 @@ WearReport WearMarch::run()
    if (cycles_.begins(fine_.state.contact))
    {
       // The march may begin before or after the opening part. Wear in this part counts, but the
-      // part is no cycle.
+      // part is not a cycle.
       ContactState contact = fine_.state.contact;
       const WearCycle opening = cycles_.opening(contact, fine_.state.depth);
       goes_on = !fails(opening);

@@ -12,7 +12,8 @@ namespace cattaneo
 /// round-off of that factor. The bound is above the eigenvalue by about this round-off.
 double largest_eigenvalue(const Eigen::MatrixXd &M);
 
-/// A lower bound of the smallest eigenvalue, likewise; 0 if M is not positive definite.
+/// A lower bound of the smallest eigenvalue, found in the same way; 0 if M is not positive
+/// definite.
 double smallest_eigenvalue(const Eigen::MatrixXd &M);
 
 } // namespace cattaneo

@@ -75,7 +75,7 @@ bool moves_plane(const Trace &trace, int position, const DofPlaces &places,
 /// Throws an InputError that names the node at a position of the contact dofs. `how` says in
 /// which way it moves, which is not allowed.
 [[noreturn]] void refuse_motion(const Trace &trace, int position, const std::string &how);
-/// `how` of refuse_motion() for a node that a rigid block moves.
+/// The argument `how` of refuse_motion() for a node that a rigid block moves.
 constexpr const char *in_guide = "is in a guide";
 
 /// The condensed body in the frames of the contact line, without the false stiffness against

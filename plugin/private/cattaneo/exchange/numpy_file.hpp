@@ -19,8 +19,8 @@ struct NumpyArray
    Eigen::MatrixXd matrix(const std::string &name) const;
 };
 
-/// Reads the `content` of an .npy file. InputError, with `name`, if it is no such file, or has
-/// other numbers than little-endian float32, float64, int32 and int64.
+/// Reads the `content` of an .npy file. InputError, with `name`, if it is not such a file, or
+/// has other numbers than little-endian float32, float64, int32 and int64.
 NumpyArray numpy_array(const std::string &content, const std::string &name);
 
 /// The files in a zip archive by name, stored without compression as np.savez does; InputError

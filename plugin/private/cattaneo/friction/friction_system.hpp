@@ -107,9 +107,9 @@ struct FrictionSystem
    /// The node whose friction at its pressure exceeds its critical value the most; if states
    /// are given it must be closed. -1: no node.
    Index above_critical(const VectorXd &p, const std::vector<NodeState> &states = {}) const;
-   /// Final decision whether a state is the end of an increment from slip v_old, in the
-   /// equations as they are given. Fills in the report, relative to the force `scale`. @param
-   /// slip_error see check_laws()
+   /// Final decision whether a state is the end of an increment from slip v_old, by the
+   /// original equations. Fills in the report, relative to the force `scale`. @param slip_error
+   /// see check_laws()
    bool obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
                    IncrementReport &report, const VectorXd &slip_error = {}) const;
    // See FrictionSolver.

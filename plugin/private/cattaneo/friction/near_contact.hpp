@@ -26,7 +26,7 @@ public:
    const std::vector<Index> &rank() const { return rank_; }
    /// Number of nodes in the nearest eighths.
    Index nodes(int eighths) const { return (rank_size() * eighths + 7) / 8; }
-   /// Fewest eighths with at least so many nodes.
+   /// Fewest eighths with at least this number of nodes.
    int eighths(Index nodes) const;
 
    /// Eliminates all but the nearest eighths. False if that does not determine the
@@ -149,7 +149,7 @@ private:
    std::unique_ptr<SymmetricProduct> times_K_;
    // Two are kept: an increment often begins with one and ends with the next.
    std::vector<std::pair<int, std::shared_ptr<NearContact>>> kept_;
-   std::array<bool, 8> fails_{}; // to be made, of so many eighths
+   std::array<bool, 8> fails_{}; // to be made, of each number of eighths
    Counters counters_;           // of near problems that are no longer kept
 };
 
