@@ -21,7 +21,7 @@ inline const char *name(Formulation formulation)
    return names[static_cast<int>(formulation)];
 }
 
-/// Unknowns a node: (x, y), (r, z), the twist alone, or (x, y, z).
+/// Unknowns per node: (x, y), (r, z), only the twist, or (x, y, z).
 inline int components(Formulation formulation)
 {
    return formulation == Formulation::torsion ? 1 : formulation == Formulation::space ? 3 : 2;

@@ -56,9 +56,9 @@ public:
    /// Schur complement of the trailing rows, in the order of `keep`, without the shift.
    Eigen::MatrixXd schur() const;
    /// Forces on the trailing rows, in the order of `keep`, that belong to displacements x
-   /// there, one a column: (S + shift) x.
+   /// there, one per column: (S + shift) x.
    Eigen::MatrixXd push(const Eigen::MatrixXd &x) const;
-   /// Solves with the factored (shifted) matrix, one right-hand side a column; rows in the
+   /// Solves with the factored (shifted) matrix, one right-hand side per column; rows in the
    /// order of `keep`.
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const;
    /// Number of rows that were factored.

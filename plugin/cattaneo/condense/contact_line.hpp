@@ -40,9 +40,9 @@ struct LineNode
 struct LineElement
 {
    /// Numbers of its nodes in the line, in their order along it; -1 of a node on the axis,
-   /// which is no contact node.
+   /// which is not a contact node.
    std::vector<Eigen::Index> nodes;
-   Eigen::Matrix2Xd points; ///< places of all of them, one a column
+   Eigen::Matrix2Xd points; ///< places of all of them, one per column
    /// The smooth curve of which the line between its ends is a chord; straight if the side is a
    /// polygon. Empty means not known: for elements that are curved in the mesh, and in a script
    /// that does not set it (see smooth_curve()).

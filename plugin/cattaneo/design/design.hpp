@@ -50,7 +50,7 @@ struct DesignProblem
    std::function<Eigen::VectorXd(const Eigen::VectorXd &x, Eigen::MatrixXd &by)> shape;
    Eigen::VectorXd low;                         ///< lower bound of each, finite
    Eigen::VectorXd high;                        ///< upper bound of each, finite
-   Eigen::MatrixXd limits;                      ///< L, a row a limit
+   Eigen::MatrixXd limits;                      ///< L, one row per limit
    Eigen::VectorXd least;                       ///< lower limits of L x; -infinity: none
    Eigen::VectorXd most;                        ///< upper limits of L x; infinity: none
    DesignGoal goal = DesignGoal::least_largest; ///< of the objective's responses
@@ -130,9 +130,9 @@ struct DesignReport
    DesignStatus status = DesignStatus::improved; ///< outcome for x
    std::string message;                          ///< what was found, in one sentence
    Eigen::VectorXd x;                            ///< variables
-   double objective = std::nan("");              ///< of them; NaN: not known
-   double objective_at_start = std::nan(""); ///< of the variables at the start; NaN likewise
-   std::vector<MarchTrace> traces;           ///< of each case there
+   double objective = std::nan("");              ///< of x; NaN: not known
+   double objective_at_start = std::nan("");     ///< of the start; NaN: not known
+   std::vector<MarchTrace> traces;               ///< of each case there
    /// The conditions of optimality (Karush, Kuhn and Tucker), as they hold there, formed anew
    /// from the derivatives. Largest entry of the gradient of the Lagrangian, over the largest
    /// derivative of a response by that variable at the start; product of a multiplier with the

@@ -15,7 +15,7 @@ struct TracedState
    int point = 0;      ///< k of the history, from 0
    double share = 0;   ///< share of the path to the next point, 0 to 1
    /// If this node changes its state here (IncrementRecord::event), the share depends on the
-   /// solution. -1: it depends on the history alone.
+   /// solution. -1: it depends only on the history.
    Eigen::Index event = -1;
    /// Depth worn off before the increment that ends here: the gap is g + depth. Empty: no wear.
    Eigen::VectorXd depth = {};

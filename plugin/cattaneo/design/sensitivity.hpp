@@ -101,7 +101,7 @@ class Sensitivity
 {
 public:
    /// InputError if the trace is not one of the problem, if sizes of a change do not fit it, or
-   /// if the problem has two tangential components a node.
+   /// if the problem has two tangential components per node.
    Sensitivity(const ReducedProblem &problem, const MarchTrace &trace,
                std::vector<StiffnessChange> stiffness = {});
    ~Sensitivity();

@@ -6,7 +6,7 @@ namespace cattaneo
 {
 
 /** Coefficients of friction, the same at every node, at which a contact changes its character.
-    Properties of the stiffness alone: the loads and the problem's own friction play no part. */
+    Properties only of the stiffness: the loads and the problem's own friction play no part. */
 struct CriticalFriction
 {
    /// Least A_ii/|B_ii| of any node (two components: least mᵀA m/|bᵀm| over all directions m,

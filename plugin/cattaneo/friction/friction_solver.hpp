@@ -78,7 +78,7 @@ struct IncrementReport
    start of an increment and the loads at its end, finds the state at its end (thesis 3.5
    and 3.6).
 
-    With two tangential components a node the friction force is a vector in the disc
+    With two tangential components per node the friction force is a vector in the disc
     |q| <= f p, opposed to the slip increment.
 
     If there are several solutions, the one found need not be the nearest to the state at the
@@ -125,7 +125,7 @@ public:
    /// round-off. InputError as solve(), and for another size.
    IncrementReport judge(const ContactState &before, const ContactState &after,
                          const Eigen::VectorXd &slip_error = {});
-   /// What was done since it was made.
+   /// Counts of all operations since the solver was made.
    const Counters &counters() const;
 
 private:

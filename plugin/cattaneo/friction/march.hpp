@@ -122,7 +122,7 @@ struct NotUnique
 /** Error of the loss of a march by increments, compared with that of its exact path: of the
     whole loss, and of the loss of each cycle.
 
-    Increments know the path at their ends alone. A node that reverses or comes to rest within
+    Increments know the path only at their ends. A node that reverses or comes to rest within
     one slips in one direction only. This changes the loss in first order of the increments, but
     the balance of energy in second order, so that MarchReport::energy_imbalance does not
     measure it. */

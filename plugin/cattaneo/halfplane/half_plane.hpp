@@ -91,7 +91,7 @@ struct HalfPlane
     @a line is that of the body that presses, with elements of orders 1 to 8. Its nodes are
     projected onto the straight surface along the normal. The line of the result has the nodes
     in reversed order: its node i is node n - 1 - i of @a line. All its frames are along the
-    surface, which goes on smoothly. Its dofs are the components of these nodes alone.
+    surface, which goes on smoothly. Its only dofs are the components of these nodes.
 
     A node on the axis, or on the plane of symmetry, is treated as in a mesh: on the axis it
     carries no force, on the plane of symmetry it does not slip (CondensedBody::held).

@@ -14,7 +14,7 @@ class Ranks
 {
 public:
    Ranks() = default;
-   /// The ranks of an mfem::ParMesh. For another mesh this rank alone.
+   /// The ranks of an mfem::ParMesh. For another mesh, only this rank.
    explicit Ranks(const mfem::Mesh &mesh);
 
    /// How many.

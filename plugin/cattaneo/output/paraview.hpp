@@ -18,7 +18,7 @@ namespace cattaneo
     (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
     each element's own material. Axisymmetric: "sigma_rr", "sigma_zz", "sigma_tt" (hoop) and
     "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz" instead. A body with a user's
-    operator has stresses if it was told them (ElasticBody::set_stress), else displacement only.
+    operator has stresses only after ElasticBody::set_stress(), otherwise only the displacement.
 
     The body must outlive this. Nothing is computed or written before write(). */
 class BodyFields

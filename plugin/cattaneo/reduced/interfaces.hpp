@@ -110,8 +110,8 @@ struct ChordalError
 /** How pressures would change if gaps were those of the curves, with unchanged displacements
     along the interface. The change is 0 if sides are straight or their elements match. It is
     also 0 for linear elements with gaps from node to node (on obstacles, on half-planes and
-    paired), as the vertices are on the curve. If no node bears, both shares are infinite if the
-    smooth sides may meet, else 0.
+    paired), as the vertices are on the curve. If no node carries a force, both shares are
+    infinite if the smooth sides may meet, else 0.
 
     @param p normal forces of the contact nodes
     @param w their normal displacements, which give the openings of nodes that may close;
@@ -132,7 +132,7 @@ struct SeparateBodies
    /// u = L U: relative displacements {v; w} of the rows by displacements of all bodies
    Eigen::SparseMatrix<double, Eigen::RowMajor> L;
    Eigen::MatrixXd loads;             ///< one column f_k a pattern
-   std::vector<LoadPattern> patterns; ///< names and controls alone
+   std::vector<LoadPattern> patterns; ///< only names and controls
 };
 
 /// InputError as of reduce(bodies, interfaces).

@@ -58,7 +58,7 @@ struct FrictionLaw
     multiplier of load pattern k. Per unit thickness in the plane; forces over the full
     circumference in axisymmetry.
 
-    There are c tangential components a node: 1 in the plane, 2 in three dimensions and with
+    There are c tangential components per node: 1 in the plane, 2 in three dimensions and with
     torsion (first tangents of all nodes, then second ones; about an axis radial and
     circumferential), 0 when the problem was reduced without friction. Plain data: it knows no
     mesh. */
@@ -112,7 +112,7 @@ struct ReducedProblem
 
    /// Number of contact nodes n.
    Eigen::Index nodes() const { return gap.size(); }
-   /// Number of tangential components a node, c.
+   /// Number of tangential components per node, c.
    Eigen::Index components() const { return nodes() ? slips() / nodes() : 0; }
    /// Number of tangential displacements, c·n.
    Eigen::Index slips() const { return K.rows() - nodes(); }
@@ -183,10 +183,10 @@ void require_semidefinite(const ReducedProblem &problem);
 /// One chain of all nodes, in their order, for problems made by hand.
 std::vector<ContactChain> one_chain(Eigen::Index nodes);
 
-/// Rigid motions that are slips alone (c·n × k, their openings are zero), as orthonormal
+/// Rigid motions that are only slips (c·n × k, their openings are zero), as orthonormal
 /// columns. They are all that A and C do not resist, because K is semidefinite.
 Eigen::MatrixXd rigid_slips(const ReducedProblem &problem);
-/// Rigid motions that are openings alone, n × k. With rigid_slips() they are all motions that A
+/// Rigid motions that are only openings, n × k. With rigid_slips() they are all motions that A
 /// and C do not resist, because K is semidefinite.
 Eigen::MatrixXd rigid_openings(const ReducedProblem &problem);
 

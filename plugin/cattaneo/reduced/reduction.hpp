@@ -52,7 +52,7 @@ struct InterfaceReport
    /// n, Mortar::chords: the error of the gap, if it follows from the geometry; 0 if the
    /// elements of both sides match.
    Eigen::VectorXd chords = {};
-   Eigen::VectorXd curved = {}; ///< n, Mortar::curved; likewise
+   Eigen::VectorXd curved = {}; ///< n, Mortar::curved; 0 in the same case
    double arm = 0; ///< largest size of Mortar::arm: moment left by a normal force of 1
    /// n: the angle between the normals of both bodies at each node, in radians, 0 where they
    /// are opposite. The frame of the node is the mean of both. 0 on a rigid obstacle.
@@ -242,7 +242,7 @@ private:
    /// Contribution of moving obstacles to the relative displacements {v; w} of the contact
    /// nodes.
    Eigen::VectorXd moved(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers) const;
-   /// Displacements {v; w} of a rigid obstacle, one column a pattern of the problem; empty if
+   /// Displacements {v; w} of a rigid obstacle, one column per pattern of the problem; empty if
    /// it rests.
    Eigen::MatrixXd obstacle_;
    /// Of obstacles that are free: {v; w} of each motion, and how far it goes, by_load ·

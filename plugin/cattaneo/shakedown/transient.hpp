@@ -31,9 +31,9 @@ struct TransientSettings
 
 /** The verdict on the slip, and its measure:
 
-    - A steady cycle is judged by its slip. A node slips if it bears at some time of the cycle
-      and moves by more than 1e-9 of TransientReport::elastic_slip in it, however little that
-      loses.
+    - A steady cycle is judged by its slip. A node slips if it carries a force at some time of
+      the cycle and moves by more than 1e-9 of TransientReport::elastic_slip in it, however
+      little that loses.
     - A cycle that is not steady yet is judged by its loss. The loss has ended when it is below
       TransientSettings::shaken_down and falls towards zero: three losses, ten cycles apart,
       continued as a geometric series, leave less than half of the last one. A cycle whose loss
