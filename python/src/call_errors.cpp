@@ -1,7 +1,7 @@
-// Calls whose arguments do not fit, in one sentence that names the argument.
+// Errors of calls whose arguments do not fit: one sentence that names the argument.
 //
-// nanobind says them in one place, by PyErr_SetString, as a list of signatures and types. The
-// linker lets this file have that text first (see CMakeLists.txt).
+// nanobind reports such errors in one place, by PyErr_SetString, as a list of signatures and
+// types. The linker passes this text to functions of this file first (see CMakeLists.txt).
 
 #include <algorithm>
 #include <cctype>
@@ -22,8 +22,8 @@ std::string trimmed(std::string_view text)
    return from == std::string_view::npos ? "" : std::string(text.substr(from, to + 1 - from));
 }
 
-/// Pieces between commas that stand in no brackets or quotes. The text ends where a bracket is
-/// closed that it has not opened.
+/// Pieces between commas outside of brackets and quotes. The text ends at a closing bracket
+/// that was not opened in it.
 Words pieces(std::string_view text)
 {
    Words all;
@@ -130,8 +130,8 @@ Words alternatives(const std::string &type)
    return all;
 }
 
-/// Is it sure that no object of this type fits? None of this package's classes derives from
-/// another one. Of other packages' classes nothing is known.
+/// Is it certain that no object of this type fits? None of this package's classes derives from
+/// another one. Nothing is known of classes of other packages.
 bool misfits(const std::string &needed, const Given &given)
 {
    const Words all = alternatives(needed);

@@ -1366,7 +1366,7 @@ TEST(Surfaces, TwoBodiesAreOneCondensedInRelativeCoordinates)
    };
    NodalStiffness alone = upper, loose = lower, driven = upper;
    alone.fix(alone.nodes_of("BOTTOM"), 3);
-   expect_input_error([&] { joined_by(alone, lower); }, "in the first body alone");
+   expect_input_error([&] { joined_by(alone, lower); }, "in the first body only");
    loose.fixed.clear();
    loose.loads.clear();
    expect_input_error([&] { joined_by(free_upper, loose); },
@@ -1824,5 +1824,5 @@ TEST(Surfaces, LoadsMoveContactNodes)
    slid.fix(slid.nodes_of("TOP"), 3);
    const CondensedBody sliding = on_surface(slid, "BOTTOM");
    expect_input_error([&] { reduce(sliding, VectorXd::Zero(sliding.nodes())); },
-                      "what it faces cannot follow");
+                      "the other side cannot follow");
 }

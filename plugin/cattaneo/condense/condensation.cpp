@@ -105,8 +105,10 @@ Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLo
    return H;
 }
 
-/* Forces grow by -S g. A load of forces feels the displacement -g of the others, and a load of
-   displacements the forces of all loads on its own -g, and those of its own on theirs. */
+/* The forces f change by -S g. In H, the displacement of a load of forces changes because the
+    other loads move the contact by -g. The reaction of a load of displacements changes by the
+    work of all forces on its own -g, and by the work of its own forces on the -g of the other
+    loads. */
 void shift_contact(const Eigen::MatrixXd &g, const Eigen::MatrixXd &S,
                    const std::vector<Control> &controls, Eigen::MatrixXd &f, Eigen::MatrixXd &H)
 {
@@ -264,7 +266,7 @@ CondensedBody in_frames(CondensedBody result, const std::vector<BodyLoad> &loads
    {
       if (result.moved.size() > 0)
       {
-         // Where unknowns are at rest the middle of an edge goes along with ends that a load
+         // If the unknowns are at rest, the middle of an edge still moves with ends that a load
          // moves.
          std::vector<Control> controls;
          for (const BodyLoad &load : loads) { controls.push_back(load.control); }

@@ -355,7 +355,7 @@ AssembledBody with_eliminated(const AssembledBody &body)
    supported.fixed.clear();
    std::merge(body.fixed.begin(), body.fixed.end(), gone.begin(), gone.end(),
               std::back_inserter(supported.fixed));
-   // Without these links other rows may turn out to have none.
+   // Without these links, other rows may turn out to have no links either.
    supported.K = without_links(body.K, gone);
    return with_eliminated(supported);
 }

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Turns a field in relative coordinates into displacements.
+/// Computes displacements from a field in relative coordinates.
 class JointSolver : public BodySolver
 {
 public:
@@ -41,8 +41,8 @@ ContactSurface surface_between(const ContactSurface &one, const ContactSurface &
 {
    const Index n = one.size();
    require(other.size() == n && static_cast<Index>(partner.size()) == n,
-           "condense joint: contact surfaces of ", n, " and ", other.size(),
-           " nodes with a pairing of ", partner.size(), ", must be as many");
+           "condense joint: the contact surfaces have ", n, " and ", other.size(),
+           " nodes and the pairing has ", partner.size(), ", must be the same number");
    std::set<int> taken;
    ContactSurface between = one;
    for (Index i = 0; i < n; ++i)
@@ -59,7 +59,7 @@ ContactSurface surface_between(const ContactSurface &one, const ContactSurface &
       for (Index end : node.between) { ends.insert(end < 0 ? end : partner[end]); }
       for (Index end : its.between) { facing.insert(end); }
       require(ends == facing, "condense joint: the node ", where,
-              " is in the middle of an edge of one body alone, must be of both or of none");
+              " is in the middle of an edge of only one body, must be so in both or in none");
       node.frame = frame_between(node.frame, its.frame, false);
       node.weight = (node.weight + its.weight) / 2;
       node.spacing = std::min(node.spacing, its.spacing);
@@ -67,7 +67,8 @@ ContactSurface surface_between(const ContactSurface &one, const ContactSurface &
    return between;
 }
 
-/// The bodies as one, in relative coordinates: rows of the first one, then those of the second.
+/// Both bodies as one, in relative coordinates: rows of the first body, then those of the
+/// second.
 class Joint
 {
 public:
@@ -91,7 +92,7 @@ private:
    const int size_;
    std::vector<int> partner_; ///< of rows of the first body, -1: none
 
-   /// TᵀKT: what acts on a contact node of the first body acts on its partner too.
+   /// TᵀKT: a force on a contact node of the first body acts on the node's partner too.
    void stiffness()
    {
       const SparseView K = first_.K.view(), L = second_.K.view();
@@ -146,13 +147,13 @@ private:
    {
       for (int row : first_.fixed)
       {
-         // A support of the first body alone would be a relation between coordinates.
+         // A support of only the first body would be a relation between coordinates.
          require(partner_[row] < 0 || fixes_partner(row),
                  "condense joint: supports hold component ",
                  component_name(Formulation::space, first_.places.component[row]),
                  " of the contact node at ", first_.places.called(row),
-                 " in the first body alone, must hold it in the second or in both: name the "
-                 "bodies the other way round, or condense each alone");
+                 " in the first body only, must hold it in the second or in both: name the "
+                 "bodies the other way round, or condense each on its own");
          all.fixed.push_back(row);
       }
       for (int row : second_.fixed) { all.fixed.push_back(size_ + row); }
@@ -205,7 +206,7 @@ CondensedBody condense_joint(const AssembledBody &body1, const ContactSurface &s
    surface1.validate();
    surface2.validate();
    const AssembledBody first = with_eliminated(body1), second = with_eliminated(body2);
-   // 1. Which rows are those of matching nodes.
+   // 1. Find the rows of matching nodes.
    const Trace one(surface1), other(surface2);
    ContactDofs contact = contact_dofs(one, Formulation::space, first.K.size());
    const ContactDofs its = contact_dofs(other, Formulation::space, second.K.size());
@@ -230,17 +231,17 @@ CondensedBody condense_joint(const AssembledBody &body1, const ContactSurface &s
       }
    }
    const Joint joint(first, second, rows);
-   // 2. Motions of the first body, as the second one has none.
+   // 2. Find the free motions of the first body. The second body has none.
    const int loose = find_free_motions(second, its.all).count;
    require(loose == 0, "condense joint: supports leave ", loose,
            " rigid motion(s) of the second body free, must hold it: name the bodies the other "
-           "way round, or condense each alone");
+           "way round, or condense each on its own");
    FreeMotions free = find_free_motions(first, contact.free());
    free.resultant.conservativeResize(Eigen::NoChange,
                                      static_cast<Index>(joint.all.loads.size()));
    free.resultant.rightCols(free.resultant.cols() - static_cast<Index>(first.loads.size()))
       .setZero();
-   // 3. One factor of both.
+   // 3. Factor both together.
    Condensation found = condense_by_factor(joint.all, contact.free(), nullptr, std::move(free));
    auto solver = std::make_shared<JointSolver>();
    solver->relative = std::move(found.solver);

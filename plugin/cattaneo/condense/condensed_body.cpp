@@ -24,7 +24,7 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd &u,
    all = frames_of(*this).transposed().rows(all);
    if (const Middles middles(surface); !middles.none())
    {
-      // The middle of an edge goes along with ends that a load moves.
+      // The middle of an edge moves with ends that a load moves.
       if (moved.size() > 0) { all += moved * multipliers; }
       middles.to_nodes(all);
    }

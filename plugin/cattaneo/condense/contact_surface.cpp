@@ -66,7 +66,7 @@ std::array<double, 2> rising(int factors, double x)
    return {value, slope};
 }
 
-/// Of faces of order 3 whose nodes lie at thirds.
+/// Functions of a face of order 3 whose nodes lie at thirds.
 FaceFunctions cubic_functions(std::size_t nodes, double s, double t)
 {
    FaceFunctions of(static_cast<Index>(nodes), 3);
@@ -82,7 +82,7 @@ FaceFunctions cubic_functions(std::size_t nodes, double s, double t)
             (two[1] * rest[0] - two[0] * rest[1]) * one[0];
          continue;
       }
-      // On a line, rising from one end and from the other one.
+      // Products of functions on a line that rise from one end and from the other.
       const auto along = rising(i, s), back = rising(3 - i, 1 - s), across = rising(j, t),
                  down = rising(3 - j, 1 - t);
       const double x = along[0] * back[0], y = across[0] * down[0];

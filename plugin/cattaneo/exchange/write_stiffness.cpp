@@ -143,7 +143,7 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
    }
    if (!stiffness.faces.empty())
    {
-      // A row a face, filled up with -1.
+      // One row per face, filled up with -1.
       std::size_t most = 0;
       for (const NodalStiffness::Nodes &face : stiffness.faces)
       {

@@ -129,15 +129,16 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    const std::vector<InterfaceReport::Moved> moved = block.moved;
    const bool in_space = result.bodies[0].line.formulation == Formulation::space;
    const int components = in_space ? 3 : 2;
-   // With one of two tangents moved the law would have to know its slip.
+   // If a load moved one of two tangents, the law would have to know the slip along it.
    if (in_space && !moved.empty())
    {
       const ContactRow &at = result.rows_->rows[result.rows_->free[moved[0].node % n]];
-      require(false, "reduce: load '", problem.patterns[moved[0].pattern].name,
-              "' moves the contact node at ",
-              place_text(result.bodies[at.slave.first].places().row(at.slave.second),
-                         Formulation::space),
-              " along the surface, and what it faces cannot follow: end the contact before it");
+      require(
+         false, "reduce: load '", problem.patterns[moved[0].pattern].name,
+         "' moves the contact node at ",
+         place_text(result.bodies[at.slave.first].places().row(at.slave.second),
+                    Formulation::space),
+         " along the surface, and the other side cannot follow: end the contact before it");
    }
    take(std::move(block), components, problem);
    problem.weights = Eigen::VectorXd::Zero(n);

@@ -46,7 +46,7 @@ SmallMatrix turned(const ContactRow &row, const TraceShare &share, const Condens
    return row.frame(d) * weighted;
 }
 
-/// The components of a node, in its own frame, that lie along the axes of a row: in space the
+/// The components of a node, in its own frame, that lie along the axes of a row. In space the
 /// tangents of the frame may be in the other order.
 std::array<int, 3> along_axes(const ContactRow &row, const CondensedBody &body, int node)
 {

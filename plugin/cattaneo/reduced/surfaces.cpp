@@ -175,7 +175,7 @@ ContactRow row_of_pair(const std::vector<CondensedBody> &bodies, const NodeOfBod
            "contact before it");
    ContactRow row;
    row.slave = slave;
-   // The first tangent is the second body's if supports hold tangents there alone.
+   // The first tangent is that of the second body if supports hold tangents only there.
    row.axes =
       frame_between(own.frame, its.frame,
                     any_is_held(other, master.second) && !any_is_held(one, slave.second));

@@ -418,7 +418,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
       add_product(f, Q, work - transposed_product(Q, f));
    }
 
-   // Where loads move contact nodes by g the free components take u - ℓ g.
+   // If loads move contact nodes by g, the free components are u - ℓ g.
    const MatrixXd moved = moved_contacts(bodies, rows, index, count);
    if (moved.size() > 0)
    {

@@ -32,8 +32,9 @@ struct Condensation
 /// ReducedProblem::H from the energies of clamped loads, with its signs set and made symmetric.
 Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped);
 
-/** Contact displacements u - g ℓ in the place of u, where loads move the contact by g (a column
-    a load): forces f = S u + f ℓ, and the response H of loads with these controls. */
+/** Replaces contact displacements u by u - g ℓ if loads move the contact by g (one column per
+    load). Changes the forces f of the loads, with S u + f ℓ in all, and the response H of loads
+    with these controls. */
 void shift_contact(const Eigen::MatrixXd &g, const Eigen::MatrixXd &S,
                    const std::vector<Control> &controls, Eigen::MatrixXd &f,
                    Eigen::MatrixXd &H);

@@ -33,8 +33,8 @@ struct ContactRow
    /// The nodes whose components (along each tangent, and across) follow from relative
    /// displacements: the slave, or the one node that faces it. See choose_dependents().
    std::array<NodeOfBody, 3> dependent{slave, slave, slave};
-   /// Which component of each of them, in the order of its own frame: in space frames of both
-   /// bodies may have their tangents in either order.
+   /// The component of each of these nodes, in the order of its own frame. In space the frames
+   /// of both bodies may have their tangents in either order.
    std::array<int, 3> component{0, 1, 2};
 
    /// The axis along which a component of a node is determined; -1: none.
