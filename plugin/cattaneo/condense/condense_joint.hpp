@@ -7,15 +7,15 @@ namespace cattaneo
 {
 
 /** Two bodies in space whose contact nodes match, condensed together in relative coordinates.
-    Displacements of the first body's contact nodes are those of the second body's and what the
-    nodes are apart, u₁ = u₂ + r. All but r is eliminated by one factor. Only 3n rows are kept,
-    and no second dense matrix.
+    Displacements of the first body's contact nodes are those of the second body's nodes plus
+    the relative displacements, u₁ = u₂ + r. All but r is eliminated by one factor. Only 3n rows
+    are kept, and no second dense matrix.
 
-    The result stands for the joint as one body on a rigid obstacle: reduce(joint, gap), with
+    The result represents the joint as one body on a rigid obstacle: reduce(joint, gap), with
     the gap of the pairing, is the problem that reduce(body1, body2, pairing) has. Its surface
-    is that of the first body, with frames between those of both and mean weights. Forces are
-    on the first body. Loads are joined by name. recover() gives the rows of the first body,
-    then those of the second.
+    is that of the first body, with frames between those of both and mean weights. Forces are on
+    the first body. Loads are joined by name. recover() gives the rows of the first body, then
+    those of the second.
 
     @param partner  of each node of `surface1`: the node of `surface2` that faces it
                     (Pairing::partner)

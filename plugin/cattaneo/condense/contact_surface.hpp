@@ -87,7 +87,7 @@ Eigen::Matrix3d frame_of(const Eigen::Vector3d &normal);
 
 /// How many nodes a face has, in words.
 constexpr const char *nodes_of_faces = "3, 4, 6, 8, 9, 10 or 16";
-/// Is there a face with so many nodes?
+/// Is there a face with this number of nodes?
 bool is_face(std::size_t nodes);
 
 /** The surface of faces of 3, 4, 6, 8, 9, 10 or 16 nodes, in either sense around each face.

@@ -10,18 +10,18 @@ namespace cattaneo
 /// written.
 void write_npz(const std::string &file, const std::map<std::string, Eigen::MatrixXd> &arrays);
 
-/** For programs of joint dynamics, as arrays: `K` (all entries), `loads` (a column a load),
-    `dofs` (a row each: node, direction), `places` (of each row's node, two coordinates or
-    three), `fixed` (rows, from 0), `M` if a mass matrix is given, of the same rows; and what
-    read_stiffness() needs besides: `load NAME` (the number of its column), `set NAME` (its
-    nodes), `faces` (a row each, filled up with -1), `axisymmetric` and `supports_left_out`
-   where they are so. All of it but M comes back to the last bit, as of write_matrix_market().
-    InputError if M does not fit, or loads prescribe displacements. */
+/** For programs of joint dynamics, as arrays: `K` (all entries), `loads` (one column per load),
+    `dofs` (node and direction of each row), `places` (of the node of each row, two coordinates
+    or three), `fixed` (rows, from 0) and, if a mass matrix is given, `M` with the same rows.
+    Other arrays are for read_stiffness(): `load NAME` (the number of its column), `set NAME`
+    (its nodes), `faces` (one row per face, filled up with -1), and `axisymmetric` and
+    `supports_left_out` if they are true. All of it but M comes back to the last bit, as of
+    write_matrix_market(). InputError if M does not fit, or loads prescribe displacements. */
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M = {});
 
-/** A reduced problem {q;p} = K {v;w} + Σ ℓ_k f_k: `K`, `loads` (a column f_k each), `H`, `gap`,
-    `friction`, `weights`, `position`, and `M` if it is given, of the same rows. */
+/** A reduced problem {q;p} = K {v;w} + Σ ℓ_k f_k: `K`, `loads` (the columns f_k), `H`, `gap`,
+    `friction`, `weights`, `position` and, if it is given, `M` with the same rows. */
 void write_npz(const std::string &file, const ReducedProblem &problem,
                const Eigen::MatrixXd &M = {});
 
