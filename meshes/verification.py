@@ -155,7 +155,7 @@ class Cases:
                     "interfaces": {"joint": {"between": ["pad:1", "base:3"], "friction": 0.3}},
                     "history": ["P=0", "P=1", "Q=1"]})
                 if push < 180:
-                    self.says(f"{name}, pressure that it bears", push, push * results["loads"]["Q"])
+                    self.says(f"{name}, pressure that it carries", push, push * results["loads"]["Q"])
                 else:
                     self.says(f"{name}, pressure at which it slides", 180, push * results["event_loads"]["Q"])
 
@@ -172,9 +172,9 @@ class Cases:
                 "interfaces": {"lower": {"between": ["middle:1", "low:3"], "friction": 0.5},
                                "upper": {"between": ["high:1", "middle:3"], "friction": 0.5}},
                 "history": ["P=0", "P=1", "Q=1"]})
-            self.says(f"patch, order {order}, pressure that errs most", 0.9,
+            self.says(f"patch, order {order}, pressure with the largest error", 0.9,
                       max((float(n["p"]) for n in nodes), key=lambda p: abs(p - 0.9)))
-            self.says(f"patch, order {order}, shear that errs most", 0.4,
+            self.says(f"patch, order {order}, shear with the largest error", 0.4,
                       max((abs(float(n["q"])) for n in nodes), key=lambda q: abs(q - 0.4)))
 
     def rigid_motion(self):
@@ -191,9 +191,9 @@ class Cases:
                                "upper": {"between": ["high:1", "middle:3"], "friction": 0.5}},
                 "history": ["P=0", "P=1", "X=1, Y=1, turn=1"]})
             # By so much strain as a motion is that isn't rigid: the angle, at E = 1000.
-            self.says(f"rigid motion, order {order}, tractions that come of it", 0,
+            self.says(f"rigid motion, order {order}, tractions that it causes", 0,
                       max(max(abs(float(n["p"]) - 0.9), abs(float(n["q"]))) for n in nodes) / (1000 * 0.1))
-            self.says(f"rigid motion, order {order}, slip that comes of it", 0, max(abs(float(n["slip"])) for n in nodes))
+            self.says(f"rigid motion, order {order}, slip that it causes", 0, max(abs(float(n["slip"])) for n in nodes))
 
     def uniform_punch(self):
         """The profile that half-planes press on uniformly: those of the study hertz (E* = 1/2, of which P = 1

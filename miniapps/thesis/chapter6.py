@@ -23,7 +23,7 @@ def joint(load, friction):
 CHAPTER = Chapter(6, "Frictional lap joint", """
 Two equal laps overlap; a bolt, idealised as a uniform pressure p0 over the width w on both outer faces (P0 = p0 w), pinches them, and the contact
 recedes to |x| < a at once. Then a force T on the loaded end of each lap goes from 0 to Tmax and back, again and again. T
-passes from lap to lap by shear, which slips outside of the stick zone |x| < c; the loops that come of it are the damping of the joint.
+passes from lap to lap by shear, which slips outside of the stick zone |x| < c; the resulting loops are the damping of the joint.
 
 By symmetry shear does not change the pressure here (the contact is uncoupled), but T itself does: tension bends the free ends
 apart and the contact shrinks, compression widens it until the free ends touch. The first cycle differs from the next ones, which are all the same.
