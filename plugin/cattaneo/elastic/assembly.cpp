@@ -268,7 +268,7 @@ private:
    }
 };
 
-/// λ or μ of a material for each attribute, or of one that varies.
+/// λ or μ, with a material for each attribute or one that varies.
 class Lame : public mfem::Coefficient
 {
 public:
@@ -311,13 +311,13 @@ private:
    bool varying_;
 };
 
-/// In space MFEM assembles.
+/// A body in space is assembled by MFEM.
 std::unique_ptr<mfem::SparseMatrix> assembled_by_mfem(const mfem::FiniteElementSpace &space,
                                                       const std::vector<Material> *materials,
                                                       const VaryingMaterial *varying)
 {
    Lame lambda(&Material::lambda, materials, varying), mu(&Material::mu, materials, varying);
-   // A form does not change its space, and asks for one that may be changed.
+   // A form does not change its space, although it takes a pointer to one that is not const.
    mfem::BilinearForm form(const_cast<mfem::FiniteElementSpace *>(&space));
    form.AddDomainIntegrator(new SolidIntegrator(lambda, mu, varying != nullptr));
    form.Assemble();

@@ -49,8 +49,8 @@ Formulation of_mesh(const mfem::Mesh &mesh, Formulation asked)
 void check_state(PlaneState state, Formulation formulation)
 {
    require(formulation == Formulation::plane || state == PlaneState::strain,
-           "elastic body: a material is in plane stress, which a body ",
-           formulation == Formulation::space ? "in space" : "of revolution", " is not");
+           "elastic body: a material is in plane stress, which is not possible for a body ",
+           formulation == Formulation::space ? "in space" : "of revolution");
 }
 
 /// Largest element attribute of the mesh, 1 if it has no elements (on this rank).

@@ -9,7 +9,7 @@ namespace cattaneo
 namespace
 {
 
-/// Of the point that is set, for messages.
+/// The place of the point that is set, for messages.
 std::string place_of(mfem::ElementTransformation &at)
 {
    mfem::Vector x(at.GetSpaceDim());

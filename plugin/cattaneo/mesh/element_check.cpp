@@ -262,15 +262,16 @@ void check_dimension(mfem::Mesh &mesh)
            " in space of dimension ", space, ", both must be 2, or both 3", which.str());
 }
 
-/// Numbers of three indices, of which the first runs along columns: now the second one does.
+/// The same numbers of three indices in another order: the second index takes the place of the
+/// first, which runs along columns.
 MatrixXd next_first(const MatrixXd &c)
 {
    const MatrixXd turned = c.transpose();
    return Eigen::Map<const MatrixXd>(turned.data(), c.rows(), c.cols());
 }
 
-/// Bernstein coefficients (n × n²) of a polynomial of three variables, from its values, of
-/// which the first index runs fastest.
+/// Bernstein coefficients (n × n²) of a polynomial of three variables, from its values. Their
+/// first index runs fastest.
 MatrixXd bernstein_of(const MatrixXd &of_values, const VectorXd &values)
 {
    const Index n = of_values.rows();
@@ -306,8 +307,8 @@ bool above_in_cube(const MatrixXd &c, double level, int depth = 6)
    return true;
 }
 
-/// Solids of one shape: where the determinant is sampled. The reference is the unit cube, of
-/// which sides of tetrahedra and wedges are points or edges.
+/// The points of a solid at which the determinant is sampled. They lie in a unit cube. For
+/// tetrahedra and wedges, some sides of the cube collapse to edges or points.
 class SolidShape
 {
 public:
@@ -338,7 +339,7 @@ public:
    Fault fault(const mfem::DenseMatrix &nodes) const
    {
       const Eigen::Map<const MatrixXd> x(nodes.Data(), 3, nodes.Width());
-      if (!x.allFinite()) { return Fault::none; } // said of the node
+      if (!x.allFinite()) { return Fault::none; } // reported for the node
       VectorXd determinant(static_cast<Index>(gradients_.size()));
       double edges = 0;
       for (Index k = 0; k < determinant.size(); ++k)
@@ -376,9 +377,10 @@ void check_solids(mfem::Mesh &mesh)
       auto &shape = shapes[map.GetGeomType()];
       if (!shape) { shape = std::make_unique<SolidShape>(map); }
       const Fault fault = shape->fault(transformation.GetPointMat());
-      require(fault != Fault::flat, "elastic body: ", name(&at.number),
-              " of the mesh has no volume: corners of it coincide or lie in one plane; take "
-              "it out or move its nodes apart");
+      require(
+         fault != Fault::flat, "elastic body: ", name(&at.number),
+         " of the mesh has no volume: its corners coincide or lie in one plane; take it out "
+         "or move its nodes apart");
       require(fault != Fault::turned, "elastic body: ", name(&at.number),
               " of the mesh is turned inside out (the determinant of its Jacobian is "
               "negative): number its nodes in the other sense");

@@ -15,10 +15,10 @@ namespace cattaneo
 
     - the sparsity is that of the nodes, built once; each pair of nodes adds its 2×2 block;
     - all points of an element are integrated at once, as products of small matrices;
-    In space MFEM's own form and integrator do it.
-
     - in the plane, elements that are affine (triangles with straight sides, parallelograms)
       share the integrals ∫ ∂φi/∂ξa ∂φj/∂ξb of the reference element, whatever their size.
+
+    A body in space is assembled by MFEM's own form and integrator.
 
     `materials` by element attribute - 1; each attribute must have one. */
 std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,

@@ -15,7 +15,7 @@ class BoundaryFace
 public:
    BoundaryFace(mfem::Mesh &mesh, int boundary_element);
 
-   /// With the point set, for what is evaluated there.
+   /// The transformation with this point set, for functions that are evaluated there.
    mfem::ElementTransformation &at(const mfem::IntegrationPoint &point);
    Eigen::Vector3d place(const mfem::IntegrationPoint &point);
    /// The normal into the body; its length is the Jacobian of the face.

@@ -46,7 +46,7 @@ struct ContactRow
       }
       return -1;
    }
-   /// Rows: the tangents and the normal, in the components of the bodies; of a line 2 × 2.
+   /// Rows: the tangents and the normal, in the components of the bodies. 2 × 2 for a line.
    SmallMatrix frame(Eigen::Index components) const;
    /// The facing node if the slave is paired with just one node, with weight 1; else null.
    const NodeOfBody *partner() const;
