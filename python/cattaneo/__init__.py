@@ -1,7 +1,7 @@
 """Quasi-static frictional contact by static reduction.
 
 A stiffness matrix of any program, or a half-plane, is condensed to the nodes that can touch; on the
-small dense problem that is left Coulomb's law is satisfied to round-off:
+small dense problem that remains, Coulomb's law is satisfied to round-off:
 
     body = cattaneo.NodalStiffness(K, places, elements=elements)   # scipy.sparse, NumPy
     line = body.contact_line(nodes)
@@ -9,10 +9,10 @@ small dense problem that is left Coulomb's law is satisfied to round-off:
     problem.friction = 0.3
     report = cattaneo.march(problem, [{}, {"P": 1}, {"Q": 0.2}])
 
-Arguments that many functions have: `problem`, a ReducedProblem; `state`, a ContactState of it (None: before any
-load); `settings`, the struct that is named in the signature, whose members go by their names as well; `progress`, True
-for a line on stderr, or a function of a Progress; `stop`, a threading.Event that ends long work; `file`, a name or
-path.
+Arguments that many functions have: `problem`, a ReducedProblem; `state`, a ContactState of this problem (None: before
+any load); `settings`, the struct that is named in the signature, whose members can also be given by their names;
+`progress`, True for a line on stderr, or a function that gets a Progress; `stop`, a threading.Event that ends long
+work; `file`, a name or path.
 
 Names are those of the C++ library; docs/python.md is the guide.
 """

@@ -28,16 +28,16 @@ from ._core import (
 
 @dataclasses.dataclass(repr=False)
 class Case:
-    """A case file as the program `contact` has marched it."""
+    """A case file that the program `contact` has marched."""
 
     file: str  #: the case
     problem: ReducedProblem  #: with all bolts as springs
     state: ContactState  #: where the march of the program ended
-    #: Points of the march, with its cycle. Multipliers of bolts that are tightened (`preload`) are the pretensions that
-    #: they came to: march(problem, history) is the march of the case.
+    #: Points of the march, with its cycle. Multipliers of bolts with a `preload` are the pretensions that tightening
+    #: has given: march(problem, history) is the march of the case.
     history: LoadHistory
-    #: By name, what the table of bolts has at the end of the march, with `stiffness` and the `unit` of the
-    #: multiplier, which is the preload or pretension.
+    #: By name: the row of each bolt in the table of bolts at the end of the march, with `stiffness` and the `unit` of
+    #: the multiplier, which is the preload or pretension.
     bolts: dict[str, dict[str, Any]]
     results: dict[str, Any]  #: what `contact --json` has; its `warnings` are those of the run
 
@@ -47,10 +47,10 @@ class Case:
         return self.problem.loads
 
     def bolt_forces(self, state: ContactState) -> dict[str, float]:
-        """The force of each bolt in a state of `problem`, by name; pulling is positive."""
+        """The force of each bolt in a state of `problem`, by name. Tension is positive."""
         displacement = dict(zip(self.loads, conjugates(self.problem, state)))
         multiplier = dict(zip(self.loads, state.multipliers))
-        # A displacement is that of a load of `unit`: how far the ends have come together, times the unit.
+        # The displacement of a bolt is how far its ends have come together, times `unit`.
         return {
             name: float(bolt["unit"] * multiplier[name] - bolt["stiffness"] * displacement[name] / bolt["unit"])
             for name, bolt in self.bolts.items()
@@ -65,7 +65,7 @@ class Case:
 
 
 def _program() -> list[str]:
-    """The command that is `contact`; InputError if it is nowhere."""
+    """The command that runs `contact`; InputError if the program is not found."""
     named = os.environ.get("CATTANEO_BIN")
     if named:
         place = pathlib.Path(named)
@@ -95,7 +95,7 @@ def _program() -> list[str]:
 
 
 def _read(file: str) -> dict[str, Any]:
-    """A case, whose comments are those of C++."""
+    """Reads a case file, whose comments are those of C++."""
     text = pathlib.Path(file).read_text(encoding="utf-8-sig")
     plain = re.sub(
         r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', lambda found: found.group(1) or " ", text, flags=re.DOTALL
@@ -105,7 +105,7 @@ def _read(file: str) -> dict[str, Any]:
 
 
 def _history(problem: ReducedProblem, table: pathlib.Path, cycles: int) -> LoadHistory:
-    """The points of a march from its table: rows at times 1, 2, …, the first cycle once."""
+    """The points of a march from its table: rows at times 1, 2, …, with the cycle once."""
     points: list[dict[str, float]] = [{}]
     start = None
     with open(table, newline="", encoding="utf-8") as rows:
@@ -130,12 +130,13 @@ def case(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, 
 
     file: the case, JSON (docs/contact.md).
     set: other values of places within keys, as --set of the program: {"interfaces.face.friction": 0.4}.
-    options: other values of keys of the case, as order=1 or history="P=0; P=1"; cycle_start for cycle-start.
+    options: other values of keys of the case, such as order=1 or history="P=0; P=1"; cycle_start stands for
+    cycle-start.
 
-    The program marches the history and ends where the case says; `results` is what it found. It is looked for in the
-    folder that the environment variable CATTANEO_BIN names, beside this package, in the build that it is of, and
-    where the command `cattaneo` is. InputError with the program's sentence for what is wrong in a case; an outcome
-    other than 'converged' is an OutcomeWarning, what the program warns of a UserWarning."""
+    The program marches the history and ends where the case says; `results` has what it found. This function looks for
+    the program in the folder that the environment variable CATTANEO_BIN names, beside this package, in the build to
+    which the package belongs, and where the command `cattaneo` is. If a case is wrong, InputError has the program's
+    sentence. An outcome other than 'converged' is an OutcomeWarning, a warning of the program a UserWarning."""
     try:
         name = os.fspath(file)
     except TypeError:
@@ -172,7 +173,7 @@ def case(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, 
 
 
 def _word(value: Any) -> str:
-    """As the command line has it: points of a history with semicolons between, times with spaces, else JSON."""
+    """A value for the command line: points of a history between semicolons, times between spaces, other values as JSON."""
     if isinstance(value, str):
         return value
     if isinstance(value, (list, tuple)) and all(isinstance(each, (str, int, float)) for each in value):
@@ -181,7 +182,7 @@ def _word(value: Any) -> str:
 
 
 def _bolt(said: dict[str, Any], options: Mapping[str, Any], places: Mapping[str, Any], name: str) -> dict[str, float]:
-    """Its stiffness and the unit of its multiplier, as case and options have them."""
+    """The stiffness of a bolt and the unit of its multiplier, from the case and the options."""
     bolts = options.get("bolts", said.get("bolts", {}))
     bolt = (json.loads(bolts) if isinstance(bolts, str) else bolts)[name]
     values = {key: places.get(f"bolts.{name}.{key}", bolt.get(key)) for key in ("stiffness", "preload", "pretension")}

@@ -1,4 +1,4 @@
-"""Problems made of a compliance, as boundary elements and closed forms give it."""
+"""Problems from a flexibility matrix, as boundary elements and closed forms give it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ from ._core import InputError, LoadPattern, ReducedProblem
 
 
 def _array(values: Any, name: str, shape: tuple[int, ...], of: str) -> Any:
-    """As floats, finite; -1 in a shape is any."""
+    """An array of finite floats. A shape of -1 allows any size."""
     import numpy as np
 
     if hasattr(values, "toarray"):  # SciPy's sparse ones
@@ -15,7 +15,7 @@ def _array(values: Any, name: str, shape: tuple[int, ...], of: str) -> Any:
     try:
         found = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
-        raise InputError(f"{name} is no array of numbers, must be {of}") from None
+        raise InputError(f"{name} is not an array of numbers, must be {of}") from None
     fits = found.ndim == len(shape) and all(want in (-1, have) for want, have in zip(shape, found.shape))
     if not fits:
         raise InputError(f"{name} has shape {found.shape}, must be {of}")
@@ -26,7 +26,7 @@ def _array(values: Any, name: str, shape: tuple[int, ...], of: str) -> Any:
 
 
 def _parts(F: Any, motions: Any, slips: int) -> list[Any]:
-    """Rows that nothing couples to the others: slips and openings, or all of them."""
+    """Blocks of rows that are not coupled to each other: slips and openings, or all rows."""
     import numpy as np
 
     rows = np.arange(len(F))
@@ -36,19 +36,19 @@ def _parts(F: Any, motions: Any, slips: int) -> list[Any]:
 
 
 def _held(F: Any, motions: Any, slips: int) -> tuple[Any, Any]:
-    """K with F K = 1 but for the motions, K Z = 0; and the forces G that hold the nodes in place while the forces of
-    all nodes do unit work on one motion each: Zᵀ G = 1, F G in the span of Z."""
+    """K with F K = 1 except for the motions, K Z = 0. Also the forces G that leave the nodes in place and do unit work on
+    one motion each: Zᵀ G = 1, F G in the span of Z."""
     import numpy as np
 
     K, G = np.zeros_like(F), np.zeros_like(motions)
     for part in _parts(F, motions, slips):
         of_part = np.abs(motions[part]).max(axis=0, initial=0) > 0
         Z, flexible = motions[np.ix_(part, of_part)], F[np.ix_(part, part)]
-        # Forces that do no work on the motions are N y: a free body takes no others.
+        # Forces that do no work on the motions are N y. Only such forces can act on a free body.
         q, r = np.linalg.qr(Z, mode="complete")
         free = Z.shape[1]
         if free and (np.abs(np.diag(r)) < 1e-10 * np.linalg.norm(Z, axis=0)).any():
-            raise InputError("rigid_motions are not independent of each other, each column must be another motion")
+            raise InputError("the columns of rigid_motions are not independent, each must be another motion")
         N = q[:, free:]
         balanced = N.T @ flexible @ N
         try:
@@ -80,30 +80,30 @@ def from_compliance(
     arc_length: Any = None,
     position: Any = None,
 ) -> ReducedProblem:
-    """The contact problem of a compliance: displacements of contact nodes by forces on them, as boundary elements and
-    closed forms give it. With m = (components + 1) n for n nodes:
+    """The contact problem of a flexibility matrix: displacements of contact nodes by forces on them, as boundary
+    elements and closed forms give it. With m = (components + 1) n for n nodes:
 
-    F: (m, m), symmetric, {v; w} by nodal forces {q; p}: all (first) tangents, second tangents if there are, then all
-    normals. p > 0 presses and w > 0 opens. Of two bodies F is the sum of both. Where columns are tractions divide
-    them by the weights; where nodes were collocated take (F + F.T) / 2.
-    rigid_motions: (m, k), {v; w} of each motion that no support prevents, a column each; F may hold any multiple of
-    them (a half-plane's logarithm, a reference point). None: supports hold the bodies.
+    F: (m, m), symmetric, {v; w} by nodal forces {q; p}: all first tangents, all second tangents if there are any, then
+    all normals. p > 0 presses and w > 0 opens. For two bodies F is the sum of both matrices. If columns are for
+    tractions, divide them by the weights. For a matrix by collocation use (F + F.T) / 2.
+    rigid_motions: (m, k), {v; w} of each motion that no support prevents, one per column. F may contain any multiple of
+    them (a half-plane's logarithm, a reference point). None if supports hold the bodies.
     forces: loads by name, (k,): the work that a load of multiplier 1 does on each rigid motion. [-1] on a motion
     w = 1 presses with a force of 1. Conjugates are displacements along them.
-    displacements: loads by name, (m,): what a load of multiplier 1 does to nodes that carry no forces; an indenter that
-    is pressed in (w = -1), a strain. Conjugates are reactions. A name that is in `forces` as well is one load, of
-    forces; conjugates then are the contact's part alone.
-    components: tangential ones of a node: 0, 1 in the plane, 2 in space.
+    displacements: loads by name, (m,): the displacements of nodes that carry no forces under a load of multiplier 1,
+    for instance an indenter that is pressed in (w = -1), or a strain. Conjugates are reactions. If a name is in
+    `forces` too, both are one load of forces, and its conjugate is only the part of the contact.
+    components: number of tangential components per node: 0, 1 in the plane, 2 in space.
     gap, friction, weights, arc_length, position: as ReducedProblem has them."""
     import numpy as np
 
     if components not in (0, 1, 2):
         raise InputError(f"components is {components!r}, must be 0, 1 or 2")
-    F = _array(F, "F", (-1, -1), "square, a row each displacement {v; w}")
+    F = _array(F, "F", (-1, -1), "square, one row per displacement {v; w}")
     m = len(F)
     if m == 0 or F.shape[1] != m or m % (components + 1) != 0:
         raise InputError(
-            f"F has shape {F.shape}, must be square with {components + 1} rows a node, as components is {components}"
+            f"F has shape {F.shape}, must be square with {components + 1} rows per node, as components is {components}"
         )
     n = m // (components + 1)
     slips = m - n
@@ -112,7 +112,7 @@ def from_compliance(
         i, j = (int(k) for k in np.unravel_index(skew.argmax(), skew.shape))
         raise InputError(
             f"F[{i}, {j}] is {F[i, j]:.6g} and F[{j}, {i}] is {F[j, i]:.6g}, must be equal: columns are of nodal "
-            "forces, not of tractions; of a collocated matrix take (F + F.T) / 2"
+            "forces, not of tractions; for a matrix by collocation use (F + F.T) / 2"
         )
     none = np.zeros((m, 0))
     Z = none if rigid_motions is None else _array(rigid_motions, "rigid_motions", (m, -1), f"({m}, k)")
@@ -127,14 +127,14 @@ def from_compliance(
             for name, r in (forces or {}).items()}  # fmt: skip
     moved = {name: _array(u, f"displacements['{name}']", (m,), f"({m},), of all nodes {{v; w}}")
              for name, u in (displacements or {}).items()}  # fmt: skip
-    # A load does work r on the motions: nodes that are held resist it with -G r. One that moves free nodes by u is
-    # resisted with -K u.
+    # If a load does work r on the motions, held nodes resist it with the forces -G r. If it moves free nodes by u,
+    # held nodes resist it with -K u.
     held = {name: -G @ work.get(name, np.zeros(Z.shape[1])) - K @ moved.get(name, np.zeros(m)) for name in names}
     patterns = [
         LoadPattern(name, f[:slips], f[slips:], "force" if name in work else "displacement")
         for name, f in held.items()
     ]
-    # With all nodes held: forces move the bodies by a, Z a + F f = 0, displacements meet reactions -uᵀ f.
+    # With all nodes held, forces move the bodies by a, Z a + F f = 0, and displacements cause the reactions -uᵀ f.
     H = np.zeros((len(names), len(names)))
     back = np.linalg.pinv(Z) if Z.shape[1] else none.T
     for k, name in enumerate(names):

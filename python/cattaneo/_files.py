@@ -1,4 +1,4 @@
-"""Files that Python's libraries read, as arrays that the core reads."""
+"""Reads files by Python's libraries, and passes them to the core as arrays."""
 
 import os
 import tempfile
@@ -11,17 +11,17 @@ from ._core import InputError
 
 
 def _matlab(matrix: str) -> dict[str, Any]:
-    """Of a .mat file, K dense or sparse."""
+    """The arrays of a .mat file, with K dense or sparse."""
     try:
         from scipy.io import loadmat
     except ImportError:
-        raise InputError(f"file '{matrix}': MATLAB's files are read by SciPy, which must be installed") from None
+        raise InputError(f"file '{matrix}': SciPy reads MATLAB's files, and must be installed") from None
     try:
         found: dict[str, Any] = loadmat(matrix)
     except FileNotFoundError:
         raise InputError(f"file '{matrix}' cannot be read, must be there") from None
     except Exception as error:
-        raise InputError(f"file '{matrix}' is no .mat of version 4 to 7.2 (save -v7): {error}") from None
+        raise InputError(f"file '{matrix}' is not a .mat file of version 4 to 7.2 (save -v7): {error}") from None
     if "K" not in found:
         names = ", ".join(name for name in found if not name.startswith("__")) or "nothing"
         raise InputError(f"file '{matrix}' has no matrix K, there is {names}")
@@ -33,8 +33,8 @@ def _matlab(matrix: str) -> dict[str, Any]:
 
 
 def plain(matrix: str) -> tuple[Any, str, bool] | None:
-    """A folder to be kept until the file in it was read, that file, and whether it says where rows are; None if the
-    core reads the file as it is."""
+    """A folder to be kept until the file in it has been read, that file, and whether it has the places
+    of rows. None if the core reads the original file."""
     if matrix.endswith(".mat"):
         arrays = _matlab(matrix)
     elif matrix.endswith(".npz") and zipfile.is_zipfile(matrix):

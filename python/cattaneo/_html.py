@@ -1,4 +1,4 @@
-"""What notebooks show of objects: their sentence, and tables of their loads, interfaces and cycles."""
+"""Objects in notebooks: their sentence, and tables of their loads, interfaces and cycles."""
 
 import html
 from typing import Any
@@ -57,6 +57,6 @@ def of_march(report: Any) -> str:
 
 
 def of_any(value: Any) -> str:
-    """As it is printed, lines kept."""
+    """The printed text, with its lines."""
     text = repr(value)
     return f"<pre>{html.escape(text[1:-1] if text.startswith('<') and text.endswith('>') else text)}</pre>"

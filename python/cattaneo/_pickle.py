@@ -1,4 +1,4 @@
-"""Reduced problems and states go through pickle as what save() writes of them, to the last bit."""
+"""Pickles reduced problems and states as the files that save() writes, to the last bit."""
 
 import copyreg
 import pathlib

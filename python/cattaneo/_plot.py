@@ -1,4 +1,4 @@
-"""Figures of reports; matplotlib is asked for only here."""
+"""Figures of reports. Only this file needs matplotlib."""
 
 import numpy as np
 
@@ -18,8 +18,8 @@ _RESULTANTS = ("force", "opposite forces", "displacement", "moment", "torque", "
 
 
 def size_of(pattern):
-    """The size of a load's resultant at multiplier 1; 1 if it has none or it is not known: results are then per unit of the load.
-    And what to write behind "displacement" or "reaction"."""
+    """The size of a load's resultant at multiplier 1, and the words after "displacement" or "reaction". The size is 1
+    if there is no resultant or it is not known; results are then per unit of the load."""
     size = pattern.size
     return (size["value"], f" of {pattern.name}") if size and size["kind"] in _RESULTANTS else (1.0, f" per unit of {pattern.name}")
 
@@ -27,10 +27,10 @@ def size_of(pattern):
 def march(report, axes=None):
     """Tractions and slip at the end of a march, of each interface, and the loops of the loads that vary.
 
-    axes: as many as there are figures, from left to right, or None for new ones. Returns them."""
+    axes: one for each figure, from left to right, or None for new ones. Returns the axes."""
     problem, state = report.problem, report.state
     loops = [name for name, load in report.multipliers.items() if len(load) > 1 and np.ptp(load) > 0]
-    # Reports that are made of states alone have none: all nodes are drawn together.
+    # Reports that are made from states have no interfaces: all nodes are drawn together.
     faces = {name: each.nodes for name, each in report.interfaces.items()} or {"": np.arange(problem.nodes)}
     count = 2 * len(faces) + len(loops)
     if axes is None:

@@ -5,7 +5,7 @@ import time
 
 
 class Line:
-    """A line on stderr that is written over, from the first second of work on."""
+    """A line on stderr that is overwritten, shown after the first second of work."""
 
     def __init__(self):
         self.shown = 0.0

@@ -1,5 +1,5 @@
-"""What objects say of themselves that have no words of their own: their values, and the sizes of their arrays; and
-what notebooks show of all of them."""
+"""Texts of objects that have none of their own: their values, and the sizes of their arrays. Also what notebooks
+show of all objects."""
 
 import inspect
 from types import ModuleType
@@ -9,7 +9,7 @@ from typing import Any
 def _text(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.6g}"
-    if hasattr(value, "shape"):  # NumPy's; stubs are made where there is none
+    if hasattr(value, "shape"):  # NumPy's. Stubs are made without NumPy
         return "×".join(map(str, value.shape)) + " values"
     if isinstance(value, (list, tuple, dict)):
         return f"{len(value)} values"
@@ -22,7 +22,7 @@ def _repr(self: Any) -> str:
         if not name.startswith("_"):
             try:
                 said.append(f"{name} {_text(getattr(self, name))}")
-            except ValueError as error:  # cattaneo.InputError: what it has only in other cases
+            except ValueError as error:  # cattaneo.InputError: an attribute that exists only in other cases
                 said.append(f"{name}: {error}")
     return f"<cattaneo {type(self).__name__}{': ' if said else ''}{', '.join(said)}>"
 
@@ -35,8 +35,8 @@ def _html(self: Any) -> str:
 
 
 def teach(module: ModuleType) -> None:
-    """All classes of a module and of its submodules: words for those that print an address otherwise, and what a
-    notebook shows."""
+    """Gives all classes of a module and of its submodules what a notebook shows, and a text to those
+    that would print an address."""
     for each in vars(module).values():
         if inspect.isclass(each) and each.__module__.startswith(module.__name__.split(".")[0]):
             if each.__repr__ is object.__repr__:

@@ -2,10 +2,10 @@
 
     trace = design.trace_march(problem, history)
     lost = design.Responses(problem, trace).dissipation(0, trace.last())
-    gradient = design.Sensitivity(problem, trace).gradient(lost)    # gradient.by.friction, .gap: a number a node
+    gradient = design.Sensitivity(problem, trace).gradient(lost)    # gradient.by.friction, .gap: one number per node
 
     wanted = design.DesignProblem(problem, [design.DesignCase("full", history)], G, low=0, high=1)
-    design.design(wanted, start=0)                                  # gap = problem.gap + G x of least peak pressure
+    design.design(wanted, start=0)                                  # gap = problem.gap + G x, smallest peak pressure
 """
 
 from ._core.design import (

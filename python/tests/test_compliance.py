@@ -141,8 +141,8 @@ ONES = np.ones((3, 1))
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"F": GOOD[:2]}, r"F has shape \(2, 3\), must be square with 1 rows a node"),
-        ({"F": GOOD, "components": 1}, r"F has shape \(3, 3\), must be square with 2 rows a node, as components is 1"),
+        ({"F": GOOD[:2]}, r"F has shape \(2, 3\), must be square with 1 rows per node"),
+        ({"F": GOOD, "components": 1}, r"F has shape \(3, 3\), must be square with 2 rows per node, as components is 1"),
         ({"F": GOOD, "components": 3}, "components is 3, must be 0, 1 or 2"),
         ({"F": GOOD * [1, 2, 1]}, r"F\[0, 1\] is .* and F\[1, 0\] is .*, must be equal: columns are of nodal forces"),
         ({"F": GOOD + [[0, 0, 0], [0, np.nan, 0], [0, 0, 0]]}, r"F\[1, 1\] is nan, must be finite"),
@@ -154,7 +154,7 @@ ONES = np.ones((3, 1))
         ({"F": GOOD, "rigid_motions": np.eye(3)}, "rigid_motions has 3 columns, must have fewer than F has rows, 3"),
         ({"F": GOOD, "forces": {"P": [-1, 0]}}, r"forces\['P'\] has shape \(2,\), must be \(1,\), one for each"),
         ({"F": GOOD, "displacements": {"D": [1]}}, r"displacements\['D'\] has shape \(1,\), must be \(3,\), of all"),
-        ({"F": "stiff"}, "F is no array of numbers, must be square"),
+        ({"F": "stiff"}, "F is not an array of numbers, must be square"),
         ({"F": GOOD, "weights": [1, 2]}, "weights"),
     ],
 )

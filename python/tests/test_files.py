@@ -51,7 +51,7 @@ def test_sparse_matrices_of_scipy_and_matlab_with_dofs_beside_them(tmp_path):
     with pytest.raises(cattaneo.InputError, match="K.mat' has no matrix K, there is stiffness"):
         cattaneo.read_stiffness(tmp_path / "K.mat")
     (tmp_path / "K.mat").write_bytes(b"MATLAB 7.3 MAT-file" + bytes(200))
-    with pytest.raises(cattaneo.InputError, match="K.mat' is no .mat of version 4 to 7.2"):
+    with pytest.raises(cattaneo.InputError, match="K.mat' is not a .mat file of version 4 to 7.2"):
         cattaneo.read_stiffness(tmp_path / "K.mat")
     with pytest.raises(cattaneo.InputError, match="missing.mat' cannot be read"):
         cattaneo.read_stiffness(tmp_path / "missing.mat")
