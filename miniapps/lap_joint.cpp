@@ -167,9 +167,9 @@ void sweep(Study &study, Joint &joint, const std::vector<double> &loads,
                                               {"status"}});
    Panel &extents = study.lines("extent", "Steady contact a and stick c", "T/P0",
                                 "a/t (upper), c/t (lower)"),
-         &losses = study.lines("loss", "Dissipation a steady cycle", "|T|/P0", "D E'/P0²"),
+         &losses = study.lines("loss", "Dissipation per steady cycle", "|T|/P0", "D E'/P0²"),
          &by_width =
-            study.lines("loss_by_width", "Dissipation a steady cycle", "w/t", "D E'/P0²");
+            study.lines("loss_by_width", "Dissipation per steady cycle", "w/t", "D E'/P0²");
    losses.say("scale", "loglog");
    for (double f : frictions)
    {
@@ -232,7 +232,7 @@ void row(Study &study, Joint &joint, const std::vector<std::vector<int>> &all)
                                                    {"steady_cycle", "steady from"},
                                                    {"work_error"}});
    Panel &residual = study.lines("residual", "Shear left by tightening", "x/t", "q/(f p0)"),
-         &density = study.lines("dissipation", "Dissipation a steady cycle along the contact",
+         &density = study.lines("dissipation", "Dissipation per steady cycle along the contact",
                                 "x/t", "D' E' t/P0² × 10³");
    for (const std::vector<int> &order : all)
    {

@@ -184,7 +184,7 @@ void square_punch(Study &study)
    {
       loss += report.cycles[report.cycles.size() - k].dissipation / report.steady_period;
    }
-   study.value("steady_loss", loss, "steady loss a cycle");
+   study.value("steady_loss", loss, "steady loss per cycle");
 }
 
 } // namespace

@@ -17,9 +17,9 @@ constexpr std::size_t most_drawn = 4096;
 /** Data of one panel of a figure, in two forms. In JSON it has its words (kind, title, x, y, …)
     and `parts`, each of which has its words (a curve has series and style) and a list of
    numbers for each column. The CSV file has the words as comment lines ("# kind: lines") and a
-   tidy table: one row a point (series, style, x, y), a zone (time, state, from, to), a ring
-   (its state, from, to) or arrow (rate or total, radius, angle) of a plan, or a point of a
-   field (series, x, y, value). The package cattaneo_show draws it. */
+   tidy table, with one row per point (series, style, x, y), zone (time, state, from, to), ring
+   (its state, from, to) or arrow (rate or total, radius, angle) of a plan, or point of a field
+   (series, x, y, value). The package cattaneo_show draws it. */
 class Panel
 {
 public:

@@ -11,7 +11,7 @@ namespace miniapp
 /// friction below which the corner itself slips.
 extern const double williams_eigenvalue[2], williams_ratio[2];
 
-/** Strengths of the two singular terms of tractions (one a column) at distances x from the
+/** Strengths of the two singular terms of tractions (one per column) at distances x from the
     corner, by least squares together with the first bounded term (a pair of complex
     eigenvalues), relative to the first mode. NaN for fewer than eight points. */
 Eigen::MatrixXd williams_strengths(const Eigen::VectorXd &x, const Eigen::MatrixXd &tractions);

@@ -21,7 +21,7 @@ public:
    Sketch(Study &study, Scene &scene);
    /// To be called with every accepted increment, as the film of the march is.
    void note(const cattaneo::ContactState &reached);
-   /// Recovers the fields at the increments that were kept, one solve a body each.
+   /// Recovers the fields at the increments that were kept, one solve per body.
    void report();
 
 private:

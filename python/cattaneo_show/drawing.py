@@ -1,9 +1,9 @@
 """Draws the panels of a run with matplotlib.
 
 A panel has words and rows (panels.py). Kinds: lines (series, style, x, y; style: line, marked, dashed, points, hollow,
-cross, star, band or thesis), zones (time, state, from, to; one row a zone, times in order), plan (a body of revolution:
+cross, star, band or thesis), zones (time, state, from, to; one row per zone, times in order), plan (a body of revolution:
 rings with their state and radii, and arrows: rate or total, radius, angle from the radial direction), field (series, x,
-y, value; one picture a series), scene (edges of bodies, contact nodes, normals, gaps, supports, loads), and table.
+y, value; one picture per series), scene (edges of bodies, contact nodes, normals, gaps, supports, loads), and table.
 
 Words: title; x and y, the labels; limits x and limits y ("lo,hi", an empty side is left to the data); inside (limits of
 y by what lies inside, without that share at either end); reversed (x); scale (loglog, semilogx or semilogy); shade and

@@ -63,7 +63,7 @@ def quoted(text):
 
 
 def csv_of_lines(panel):
-    """The CSV file of a panel of lines: its words as comments, then a row a point."""
+    """The CSV file of a panel of lines: its words as comments, then a row per point."""
     lines = [f"# {key}: {text}" for key, text in panel.items() if key not in ("name", "parts")] + ["series,style,x,y"]
     for part in panel["parts"]:
         lines += [f"{quoted(part['series'])},{part['style']},{x:.9g},{y:.9g}" for x, y in zip(part["x"], part["y"])]

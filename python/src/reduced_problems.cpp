@@ -44,12 +44,12 @@ ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C,
    const Eigen::MatrixXd normal = matrix(C, "C");
    const Index n = normal.rows();
    require(n > 0 && normal.cols() == n, "C has shape (", n, ", ", normal.cols(),
-           "), must be square with a row a node");
+           "), must be square with a row per node");
    const Eigen::MatrixXd tangential = matrix(A, "A");
    const Index slips = tangential.rows();
    require(tangential.cols() == slips && slips <= 2 * n && slips % n == 0, "A has shape (",
-           slips, ", ", tangential.cols(), "), must be square with 0, 1 or 2 rows a node, of ",
-           n, " nodes");
+           slips, ", ", tangential.cols(),
+           "), must be square with 0, 1 or 2 rows per node, of ", n, " nodes");
    for (const LoadPattern &pattern : patterns)
    {
       require(pattern.q.size() == slips && pattern.p.size() == n, "patterns[",
@@ -237,7 +237,7 @@ void bind_reduced_problems(nb::module_ &m)
       "    q = A v + B^T w + sum of multiplier × q_k\n"
       "    p = B v + C  w + sum of multiplier × p_k\n\n"
       "v slip, w opening, q tangential and p normal nodal forces, compression positive. c "
-      "tangential components a node: 1 in the plane, 2 with torsion, 0 without friction.");
+      "tangential components per node: 1 in the plane, 2 with torsion, 0 without friction.");
    bind_copies(problem,
                "A copy whose friction and gap can be changed without those of this problem.");
    problem

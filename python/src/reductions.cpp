@@ -441,7 +441,7 @@ void bind_reductions(nb::module_ &m)
       .def_prop_ro(
          "L", [](const SeparateBodies &self) { return array(Eigen::MatrixXd(self.L)); },
          "dense")
-      .def_prop_ro("loads", viewed(&SeparateBodies::loads), "a column a load")
+      .def_prop_ro("loads", viewed(&SeparateBodies::loads), "a column per load")
       .def_prop_ro("names", each_of(&SeparateBodies::patterns, &LoadPattern::name),
                    "of the loads");
    m.def(

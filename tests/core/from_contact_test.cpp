@@ -326,7 +326,7 @@ TEST(FromContact, ALineThatIsCutOffOrClosedHasNoCorners)
    const ReducedProblem disc = cattaneo_test::as_disc(four_springs());
    const ContactState state = ContactState::virgin(disc);
    expect_input_error([&] { contact_edges(disc, state, state); },
-                      "has 2 tangential components a node");
+                      "has 2 tangential components per node");
 }
 
 TEST(FromContact, RefusesWhatItCannotJudge)

@@ -19,7 +19,7 @@ def test_rigid_plane_meets_the_references_at_both_orders(run, order):
                "right end of stick, Q/fP = 0.5": (-0.203, 0.005, READ_OUT),
                "right end of stick, Q/fP = 0.75": (-0.511, 0.005, READ_OUT),
                "right end of stick, Q/fP = 0.9": (-0.729, 0.005, READ_OUT),
-               "steady loss a cycle, Q = ±0.8 fP": (9.17e-4, 0.003 * 9.17e-4, 0)})
+               "steady loss per cycle, Q = ±0.8 fP": (9.17e-4, 0.003 * 9.17e-4, 0)})
     assert got["status"] == "converged"
     assert got["steady_cycle"] == 2
     assert abs(got["energy_imbalance"]) < 1e-3  # increments
@@ -48,7 +48,7 @@ def test_half_plane_meets_the_references_at_both_orders(run, order, corner):
     got.meets({"stick half-width, P only": (0.909, 0.002, READ_OUT),
                "right end of stick, Q/fP = 0.25": (0.737, 0.002, READ_OUT),
                "right end of stick, Q/fP = 0.75": (-0.526, 0.002, READ_OUT),
-               "steady loss a cycle, Q = ±0.8 fP": (3.377e-3, 0.003 * 3.377e-3, corner * 3.377e-3)})
+               "steady loss per cycle, Q = ±0.8 fP": (3.377e-3, 0.003 * 3.377e-3, corner * 3.377e-3)})
     assert got["counters"]["factorisations"] == 1  # the half-plane has no mesh
     assert got["counters"]["unions"] == 1
 

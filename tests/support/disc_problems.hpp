@@ -5,7 +5,7 @@
 namespace cattaneo_test
 {
 
-/// A random reduced problem with two tangential components a node and three load patterns:
+/// A random reduced problem with two tangential components per node and three load patterns:
 /// "press" (mostly normal), "shear" (all) and "twist" (second component only).
 cattaneo::ReducedProblem random_disc_problem(int n, double friction, double coupling,
                                              std::mt19937 &random);

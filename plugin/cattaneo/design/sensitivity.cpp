@@ -215,7 +215,7 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
 {
    const auto count = static_cast<Index>(problem.patterns.size());
    require(problem.components() <= 1, "sensitivity: the problem has ", problem.components(),
-           " tangential components a node, at most 1 is supported");
+           " tangential components per node, at most 1 is supported");
    require(!trace.states.empty(),
            "sensitivity: the trace has no state, must have at least one");
    trace.history.validate(problem);

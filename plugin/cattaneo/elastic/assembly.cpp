@@ -38,7 +38,7 @@ mfem::Table neighbours(const mfem::FiniteElementSpace &space)
 }
 
 /// Shape functions of the space and of the element's geometry at the points of a rule, one
-/// column a point, and the integrals that affine elements share.
+/// column per point, and the integrals that affine elements share.
 struct ReferenceElement
 {
    VectorXd weight;

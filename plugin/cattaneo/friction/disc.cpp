@@ -1,4 +1,4 @@
-// Contact with two tangential components a node.
+// Contact with two tangential components per node.
 
 #include <algorithm>
 #include <cattaneo/friction/disc.hpp>

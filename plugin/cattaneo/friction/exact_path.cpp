@@ -30,7 +30,7 @@ ExactPath::ExactPath(const ReducedProblem &problem)
      equations_(K_, bounds_.given)
 {
    require(problem.components() == 1, "exact path: the reduced problem has ",
-           problem.components(), " tangential components a node, must have 1");
+           problem.components(), " tangential components per node, must have 1");
 }
 
 /// The states from which each node may choose, by its present gap and forces.

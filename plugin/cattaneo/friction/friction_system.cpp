@@ -18,7 +18,7 @@ const ReducedProblem &valid(const ReducedProblem &problem)
 {
    problem.validate();
    require(problem.components() <= 2, "friction solver: the reduced problem has ",
-           problem.components(), " tangential components a node, at most 2 are supported");
+           problem.components(), " tangential components per node, at most 2 are supported");
    return problem;
 }
 

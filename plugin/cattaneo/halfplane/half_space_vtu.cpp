@@ -13,7 +13,7 @@ using Eigen::Index;
 namespace
 {
 
-/// An array of the file, one row a line.
+/// An array of the file, one row per line.
 void add_array(std::ostringstream &out, const char *name, const char *type,
                const Eigen::MatrixXd &values)
 {

@@ -58,7 +58,7 @@ void check(const ReducedProblem &problem, const ContactState &pressed,
    require(problem.components() == 1,
            "the near-edge field needs a plane contact with "
            "friction: the problem has ",
-           problem.components(), " tangential components a node, must have 1.");
+           problem.components(), " tangential components per node, must have 1.");
    pressed.validate(problem);
    loaded.validate(problem);
 }

@@ -47,7 +47,7 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
       obstacle_.size() == 0,
       "add torsion: the obstacle moves already, must be called before add_obstacle_motion()");
    require(torsion.empty() && problem.components() == 1, "add torsion: the reduction has ",
-           problem.components(), " tangential components a node, must have 1");
+           problem.components(), " tangential components per node, must have 1");
    require(twisting.size() == bodies.size(), "add torsion: ", twisting.size(),
            " bodies are given, must be as many as in the reduction, ", bodies.size());
    require(

@@ -281,7 +281,7 @@ void ReducedProblem::validate() const
            K.rows(), "×", K.cols(), ", must have 1, 2 or 3 rows and columns for each of the ",
            n, " nodes");
    require(m <= 2 * n, "reduced problem: ", m / n,
-           " tangential components a node, must be 0, 1 or 2");
+           " tangential components per node, must be 0, 1 or 2");
    require(K.allFinite(), "reduced problem: the stiffness has an entry that is not finite");
    check_symmetric("A", A());
    check_symmetric("C", C());

@@ -10,7 +10,7 @@ namespace cattaneo
 /// The effect of load patterns on a body whose contact nodes are clamped, in global components.
 struct ClampedLoads
 {
-   Eigen::MatrixXd forces;   ///< contact forces, one column a pattern
+   Eigen::MatrixXd forces;   ///< contact forces, one column per pattern
    Eigen::MatrixXd response; ///< F_kᵀ K_II⁻¹ F_j of the patterns' interior forces
    /// Work of pattern k's forces (or those of its motion) at the supports on the motion that
    /// pattern j prescribes.

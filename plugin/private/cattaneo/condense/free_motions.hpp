@@ -9,7 +9,7 @@ namespace cattaneo
 struct FreeMotions
 {
    int count = 0;           ///< the supports leave free; motions that K does not resist follow
-   Eigen::MatrixXd contact; ///< at the contact dofs, one column a motion
+   Eigen::MatrixXd contact; ///< at the contact dofs, one column per motion
    Eigen::MatrixXd resultant; ///< work of each pattern's forces (columns) on each motion
 };
 
@@ -25,7 +25,7 @@ class Equilibrium
 {
 public:
    explicit Equilibrium(const FreeMotions &free);
-   /// Imposes them on the contact forces of the clamped loads, one column a pattern.
+   /// Imposes them on the contact forces of the clamped loads, one column per pattern.
    void impose_on_forces(Eigen::MatrixXd &f) const;
    /// Imposes them on the reduced stiffness S.
    void impose_on_stiffness(Eigen::MatrixXd &S) const;

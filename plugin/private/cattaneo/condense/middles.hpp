@@ -9,7 +9,7 @@ namespace cattaneo
 {
 
 /** The nodes of a surface whose unknown is not their displacement (ContactSurface), u = B ũ.
-    Matrices have one row a node, or all nodes for one component after the other. */
+    Matrices have one row per node, or all nodes for one component after the other. */
 class Middles
 {
 public:

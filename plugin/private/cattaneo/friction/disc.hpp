@@ -9,7 +9,7 @@ namespace cattaneo
 
 struct Increment;
 
-/** Newton's equations of contact with two tangential components a node, where friction is in
+/** Newton's equations of contact with two tangential components per node, where friction is in
     the disc |q| <= f p. Open nodes carry no force and are eliminated. Closed nodes do not move
     along the normal, and sticking nodes do not move at all. Two unknowns are left for each node
     that slips. Their equations are linearised about a direction of slip (DiscSlip).
