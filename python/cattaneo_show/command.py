@@ -16,7 +16,7 @@ WITHOUT_MATPLOTLIB = 3
 
 
 def find_matplotlib(arguments):
-    """Is it here? Where another Python has it, that one goes on in this one's place."""
+    """Is matplotlib here? If only another Python has it, that one replaces this process."""
     try:
         import matplotlib  # noqa: F401
 
@@ -35,7 +35,7 @@ def find_matplotlib(arguments):
 
 
 def of_sweep(file, arguments):
-    """Runs the plan of a program, which goes with it."""
+    """Runs the plan that a program wrote, and deletes the plan."""
     with open(file, encoding="utf-8") as text:
         plan = json.load(text)
     try:

@@ -2,9 +2,9 @@
 
     python3 compare.py FILE
 
-FILE has the study, its values by name (results and options), those to be compared (found: key, computed, error, row) and closed
-forms (name, value, spread, mesh, computed). It is overwritten with rows and notes. A program asks so at its end: nothing but Python
-itself is needed."""
+FILE has the study, its values by name (results and options), the values to be compared (found: key, computed, error, row) and
+closed forms (name, value, spread, mesh, computed). It is overwritten with rows and notes. Programs call this script at their end.
+It needs only Python itself."""
 
 import json
 import math
@@ -19,7 +19,7 @@ def is_number(x):
 
 
 def holds(found, condition):
-    """Is what was found what the condition says?"""
+    """Does a value meet the condition?"""
     if isinstance(condition, list):
         return any(holds(found, one) for one in condition)
     if isinstance(condition, str) and condition[:1] in "<>":
@@ -28,7 +28,7 @@ def holds(found, condition):
     if condition == "*":
         return found is not None and found != ""
     if is_number(found) and is_number(condition):
-        return abs(found - condition) < 1e-9  # a level that was reached in steps is so but for round-off
+        return abs(found - condition) < 1e-9  # a level that was reached in steps may differ by round-off
     return found == condition
 
 
@@ -46,8 +46,8 @@ def mesh_share(term, meaning):
 
 
 def row(name, value, spread, mesh, thesis, computed):
-    """A line of the table. Whatever is outside of the reference's own ± is marked, whether or not the mesh explains it; the limit
-    of a closed form, which has none, is the ± of the mesh. A value that only the thesis has is never outside."""
+    """A line of the table. A value outside of the reference's own ± is marked, whether or not the mesh explains the difference.
+    A closed form has no ±, so its limit is the ± of the mesh. If only the thesis has a value, it is never outside."""
     def apart(least):
         return value is not None and not abs((math.nan if computed is None else computed) - value) <= least
 
@@ -74,7 +74,7 @@ def compare(run):
         for entry in entries:
             name = entry.get("name")
             if "key" not in entry or not holds(found["key"], entry["key"]) or name in rows or not fits(entry, of):
-                continue  # what is found twice is compared once
+                continue  # a value that is found twice is compared once
             mesh = mesh_share(entry.get("mesh", 0.0), lambda word: meaning(word, of)) + (found["error"] or 0.0)
             rows[name] = row(name, entry.get("value"), entry.get("spread"), mesh, entry.get("thesis"), found["computed"])
     return {"rows": list(rows.values()), "notes": [entry["note"] for entry in entries if "note" in entry and fits(entry, {})] if rows else []}

@@ -5,10 +5,10 @@ cross, star, band or thesis), zones (time, state, from, to; one row per zone, ti
 rings with their state and radii, and arrows: rate or total, radius, angle from the radial direction), field (series, x,
 y, value; one picture per series), scene (edges of bodies, contact nodes, normals, gaps, supports, loads), and table.
 
-Words: title; x and y, the labels; limits x and limits y ("lo,hi", an empty side is left to the data); inside (limits of
-y by what lies inside, without that share at either end); reversed (x); scale (loglog, semilogx or semilogy); shade and
-shade y ("lo,hi,word"). A table is drawn as it says: over (a column), curve ("column=word"), by ("column=word": one curve
-for each of its values), mark ("x,y": values of the thesis).
+Words: title; x and y, the labels; limits x and limits y ("lo,hi", an empty side is left to the data); inside (limits of y by the
+data inside, without that share at either end); reversed (x); scale (loglog, semilogx or semilogy); shade and shade y
+("lo,hi,word"). A table is drawn as it says: over (a column), curve ("column=word"), by ("column=word": one curve for each of its
+values), mark ("x,y": values of the thesis).
 
 Colours are Okabe and Ito's, which the colour-blind can tell apart; lines differ in dashes and zones
 in hatching as well, so that a black-and-white print can be read.
@@ -53,7 +53,7 @@ def state_patch(state):
 
 
 def dashes(k):
-    """Of curve k: where its colour comes again they are others."""
+    """The dashes of curve k, which change when a colour is used again."""
     return DASHES[(k + k // len(COLOURS)) % len(DASHES)]
 
 
@@ -69,7 +69,7 @@ def draw_lines(axes, comments, rows):
     labelled, bands, companions, first = set(), {}, {}, int((comments["colour"] or ["0"])[0])
     for (name, style), points in series.items():
         x, y = zip(*points)
-        # A comparison takes the colour of the curve it belongs to ("closed form: q" goes with "q").
+        # A comparison has the colour of the curve to which it belongs ("closed form: q" goes with "q").
         owner = next((k for k, other in enumerate(names) if name == other or name.endswith(": " + other)), None)
         colour = COLOURS[(first + owner) % len(COLOURS)] if owner is not None else "#555555"
         label = name if name not in labelled else None
@@ -189,7 +189,7 @@ def draw_zones(axes, comments, rows):
 
 
 def legend_below(axes):
-    """Where it covers no curve, in as many columns as fit."""
+    """Places the legend where it covers no curve, in as many columns as fit."""
     handles, labels = axes.get_legend_handles_labels()
     labels = [symbols(label) for label in labels]
     columns = max(1, min(len(labels), 62 // (max(map(len, labels)) + 7)))
@@ -201,7 +201,7 @@ SYMBOL = re.compile(r"(?<!\w)(Δ?)([A-Za-zσξτ])_([A-Za-z0-9]+(?:,max|,min)?)"
 
 
 def symbols(text):
-    """K_N as it is set in a paper; names of more letters, as those of parts, stay."""
+    """Sets K_N as in a paper. Names of more letters, such as those of parts, are left as they are."""
     return SYMBOL.sub(lambda m: f"{m[1]}${m[2]}_{{\\mathrm{{{m[3]}}}}}$", text)
 
 
@@ -248,7 +248,7 @@ def draw_field(axes, comments, rows):
     grid = [[float("nan")] * len(x) for _ in y]
     for row in rows:
         grid[y.index(value(row["y"]))][x.index(value(row["x"]))] = value(row["value"])
-    # Round levels up to the largest value, which is what a reader looks for.
+    # Levels are round numbers up to the largest value, because readers look for that value.
     values = [value(row["value"]) for row in rows]
     levels = [float(f"{level:.10g}") for level in MaxNLocator(14).tick_values(min(values), max(values))]
     shades = axes.contourf(x, y, grid, levels, cmap="viridis")
@@ -330,8 +330,8 @@ def one_power(axis, largest):
 
 
 def less_elastic(said, rows):
-    """Loops without their elastic part, which lies beside them: displacement less force times the least slope of a loop, as it
-    has after a reversal. What is left is slip. None where nothing is left."""
+    """Loops without their elastic part, which lies beside them: displacement less force times the least slope of a loop, which
+    is that after a reversal. The rest is slip. None if there is no rest."""
     loops = {}
     for row in rows:
         loops.setdefault((row["series"], row["style"]), []).append((value(row["x"]), value(row["y"])))
@@ -418,6 +418,6 @@ def figure(run, names=None):
 
 
 def save(made, file, **options):
-    """Writes a figure. The width of hatches is asked for only now."""
+    """Writes a figure. Matplotlib reads the width of hatches only now."""
     with matplotlib.rc_context(STYLE):
         made.savefig(file, **options)

@@ -1,4 +1,4 @@
-"""The page of a run: one file, with nothing from elsewhere."""
+"""The page of a run: one file that needs no other files."""
 
 import io
 import json

@@ -10,16 +10,16 @@ class Refused(ValueError):
 
 
 def read(file):
-    """A run: the JSON that a program wrote (--json), as a dictionary. Refused if the file is none."""
+    """A run: the JSON that a program wrote (--json), as a dictionary. Refused if the file is not a run."""
     try:
         with open(file, encoding="utf-8") as text:
             run = json.load(text)
     except OSError as error:
         raise Refused(f"file '{file}' cannot be read: {error.strerror}") from error
     except ValueError as error:
-        raise Refused(f"file '{file}' is no JSON: {error}") from error
+        raise Refused(f"file '{file}' is not JSON: {error}") from error
     if not isinstance(run, dict) or not isinstance(run.get("shown"), dict):
-        raise Refused(f"file '{file}' is no run: it has no key 'shown', which programs write with --json")
+        raise Refused(f"file '{file}' is not a run: it has no key 'shown', which programs write with --json")
     marches = run["shown"].get("marches")
     if isinstance(marches, str):  # long ones are in a file beside it
         beside = pathlib.Path(file).with_name(marches)
@@ -66,7 +66,7 @@ def rows(run, one):
 
 
 def value(x):
-    """A number as it is drawn: what is none leaves a gap."""
+    """A number for a drawing. Other values leave a gap."""
     return float("nan") if x is None else float(x)
 
 
@@ -94,12 +94,12 @@ def series_of(said, rows):
 
 
 def number(x):
-    """In a legend: ten digits, none of them an idle zero."""
+    """A number for a legend: up to ten digits, without trailing zeros."""
     return f"{x:.10g}" if isinstance(x, float) else str(x)
 
 
 def pieces(option, text, between):
-    """Pieces of an option's text between these characters; what is in quotes is one piece. None is empty."""
+    """Pieces of an option's text between these characters; text in quotes is one piece. No piece is empty."""
     made, quote = [""], ""
     for mark in text:
         if not quote and mark in between:

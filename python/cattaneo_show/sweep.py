@@ -18,21 +18,21 @@ from .page import page
 from .panels import Refused, pieces, unquoted
 from .tables import Table, csv_of_lines, text_of, write
 
-# Sizes and times of a run, and residuals: no results to be listed unasked.
+# Sizes and times of a run, and residuals. They are listed only on request.
 NO_RESULTS = {"contact_nodes", "dofs", "seconds", "seconds_condensation", "time", "event_time", "largest_residual", "energy_imbalance"}
 NOT_SHOWN = {"first_cycle", "state_changes", "steady_cycle", "steady_period"}  # unasked: they say how a run went
 MOST_SHOWN = 9  # columns on the screen, and panels
 
 
 class Point:
-    """One run: its values, its command, and what it left."""
+    """One run: its values, its command and its results."""
 
     def __init__(self, values, words):
         self.values, self.words = values, words
         self.results, self.status, self.message, self.ran, self.ended_well = {}, "", "", False, False
 
     def finish(self, code, results, errors):
-        """Of a process that has ended; a signal is a negative exit code."""
+        """The exit code of a process that has ended. A signal is a negative exit code."""
         self.ran, self.ended_well = True, code == 0
         if results.exists():
             self.results = json.loads(results.read_text(encoding="utf-8"))
@@ -67,7 +67,7 @@ def is_number(x):
 
 
 def die_with_parent():
-    """In a new process: Ctrl-C is for the sweep, which passes it on, and no point outlives it."""
+    """In a new process: only the sweep gets Ctrl-C and passes it on, and no point continues after the sweep."""
     os.setpgid(0, 0)
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     if sys.platform == "linux":
@@ -87,8 +87,8 @@ class Interrupt:
 
 
 def run_points(program, points, wanted, warn):
-    """All of them, in their order, unless Ctrl-C comes. Warns at the first that ends well of a wanted result that it does not
-    have."""
+    """Runs all points in their order, unless Ctrl-C comes. If the first point that ends well lacks a result that was asked for,
+    a warning says so."""
     environment = {key: value for key, value in os.environ.items() if not key.startswith(("OMPI_", "PMIX_"))}
     environment["OPENBLAS_NUM_THREADS"] = "1"
     cores, begun, ended, running, interrupt, told = os.cpu_count() or 1, time.monotonic(), 0, {}, Interrupt(), False
@@ -148,7 +148,7 @@ class Progress:
 
 
 def single_numbers(points, keys):
-    """Names of results that are single numbers in any point, but for sizes, times, errors and residuals."""
+    """Names of results that are single numbers in any point, except sizes, times, errors and residuals."""
     known = {*NO_RESULTS, *(key["name"] for key in keys)}
     return list(dict.fromkeys(name for point in points for name, x in point.results.items()
                               if is_number(x) and "_error" not in name and name not in known))
@@ -169,7 +169,7 @@ def varies(points, path):
 
 
 def drawn_over(keys):
-    """The key with the most numbers, the last of such; None if none has two."""
+    """The key with the most numbers (of several, the last one); None if no key has two."""
     best = None
     for key in keys:
         if len(key["values"]) > 1 and all(map(is_number, key["values"])) and (best is None or len(key["values"]) >= len(best["values"])):
@@ -178,7 +178,7 @@ def drawn_over(keys):
 
 
 def called(key):
-    """A key as it is read: several places of a history are one load, `history.2.Q,-history.3.Q` the amplitude of Q."""
+    """A key in words: several places of a history are one load, `history.2.Q,-history.3.Q` the amplitude of Q."""
     parts = [unquoted(piece) for piece in pieces("option --sweep", key, ",")]
     places = [pieces("option --sweep", part.lstrip("-"), ".") for part in parts]
     if any(len(place) != 3 or place[0] != "history" for place in places) or len({place[2] for place in places}) > 1:
@@ -221,7 +221,7 @@ def slopes(parts, said):
 
 
 def curves(keys, points, names):
-    """A panel for each result over one key; of the other keys a curve each."""
+    """A panel for each result over one key, with a curve for each value of the other keys."""
     over, panels = drawn_over(keys), []
     if over is None:
         return panels
@@ -229,7 +229,7 @@ def curves(keys, points, names):
     label = called(over["name"])
     for name, path in names.items():
         parts = {}
-        slides = {}  # of each value at which a run ended early: its status
+        slides = {}  # the status of each value at which a run ended early
         for point in points:
             y = result(point.results, path)
             if not point.ended_well and point.ran:
@@ -241,7 +241,7 @@ def curves(keys, points, names):
             part["x"].append(float(f"{point.values[k]:.9g}"))
             part["y"].append(float(f"{y:.9g}"))
         shaded = {}
-        if slides and len(parts) == 1:  # from where on the joint slides, or what else ended the runs
+        if slides and len(parts) == 1:  # the value from which on the joint slides, or another reason why runs ended
             good = [x for part in parts.values() for x in part["x"] if x < min(slides)]
             begin = (max(good) + min(slides)) / 2 if good else min(slides)
             shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{slides[min(slides)].replace('_', ' ')}"}
@@ -280,7 +280,7 @@ def sweep(plan, draws):
     if names and len(missing) == len(names) and any(point.ended_well for point in points):
         raise Refused(f"option --sweep-results: no point has a number or a word of the name '{missing[0]}', {allowed}")
     run = {}
-    for name in missing:  # what was computed stays, and the others that were asked for
+    for name in missing:  # computed results stay, and the other results that were asked for
         run["message"] = f"option --sweep-results: no point has a number or a word of the name '{name}', {allowed}"
         print("\n" + run["message"])
     shown = [name for name, path in names.items() if wanted or (name not in NOT_SHOWN and points and varies(points, path))][:MOST_SHOWN]
@@ -291,7 +291,7 @@ def sweep(plan, draws):
     for message in sorted({point.message for point in points if point.status == "refused"}):
         print("refused: " + message)
     if len(shown) < len(names):
-        print(f"{len(names) - len(shown)} more results, which do not vary or are too many, are in --json and --csv alone; "
+        print(f"{len(names) - len(shown)} more results, which do not vary or are too many, are only in --json and --csv; "
               "--sweep-results names those to be shown")
     converged = sum(point.ended_well for point in points)
     panels = curves(keys, points, {name: names[name] for name in shown or list(names)[:1]})
@@ -335,7 +335,7 @@ def table_of(keys, points, names, shown):
 
 
 def report(run, table, options, draws):
-    """JSON, CSV, page and picture, as they were asked for. A run that cannot be drawn keeps its JSON."""
+    """Writes JSON, CSV, page and picture, as requested. A run that cannot be drawn keeps its JSON."""
     from . import plot
 
     def wanted(name):

@@ -7,20 +7,21 @@ from .panels import Refused
 
 
 def text_of(x):
-    """A number as short as it is."""
+    """A number without digits that are not needed."""
     return f"{x:g}" if isinstance(x, float) else str(x)
 
 
 class Table:
-    """Rows that are stated once: printed, in JSON by the keys of their columns, and as a CSV file.
+    """Rows that are printed, and written as JSON (by the keys of their columns) and as CSV.
 
-    columns: (key, heading, format of a number) each; without a heading it is not printed, without a key nothing else."""
+    columns: (key, heading, format of a number) each; without a heading the column is only in files, without a key it is only
+    printed."""
 
     def __init__(self, name, columns):
         self.name, self.columns, self.rows, self.cells = name, columns, [], []
 
     def row(self, values, more):
-        """Values in the order of the columns; `more` goes to JSON alone."""
+        """Values in the order of the columns; `more` goes only to JSON."""
         self.rows.append({**{key: x for (key, _, _), x in zip(self.columns, values) if key}, **more})
         self.cells.append([cell(x, form) for (_, heading, form), x in zip(self.columns, values) if heading])
 
@@ -79,7 +80,7 @@ def csv_of(words, rows):
 
 
 def write(file, text):
-    """A file, whole or not at all. Refused if it cannot be."""
+    """Writes a file, whole or not at all. Refused if it cannot be written."""
     part = f"{file}.part"
     try:
         with open(part, "w", encoding="utf-8") as out:

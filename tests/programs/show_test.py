@@ -85,7 +85,7 @@ def test_panels_are_chosen_by_name(run):
 
 def test_what_is_no_run_is_refused(run):
     nothing, text, other = run.folder / "no.json", run.write("text.json", "x"), run.write("other.json", '{"a": 1}')
-    for file, words in ((nothing, ["cannot be read"]), (text, ["is no JSON"]), (other, ["is no run", "--json"])):
+    for file, words in ((nothing, ["cannot be read"]), (text, ["is not JSON"]), (other, ["is not a run", "--json"])):
         refused(show(file, "--html", run.folder / "x.html", code=1), str(file), *words)
     assert not (run.folder / "x.html").exists()
 
