@@ -13,7 +13,7 @@ deps=build/deps
 mfem_version=4.10.0.1
 mfem_mpi_version=4.6.0
 packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
-   coinor-libipopt-dev nlohmann-json3-dev libgtest-dev librapidcheck-dev libbenchmark-dev
+   coinor-libipopt-dev libspectra-dev nlohmann-json3-dev libgtest-dev librapidcheck-dev libbenchmark-dev
    python3-matplotlib"
 if [ "$flavour" = core ]; then
    build=$build-core

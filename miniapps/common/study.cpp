@@ -77,7 +77,9 @@ void Study::parse()
              "Largest number of iterations for a right-hand side.");
    }
    options_.parse();
-   if (const std::string amplitudes = options_.text("amplitudes"); !amplitudes.empty())
+   // Those of a history. Another program's option of this name is its own.
+   if (const std::string amplitudes = options_.text("amplitudes");
+       !amplitudes.empty() && !options_.text("amplitude").empty())
    {
       // "0.2 … 1" means nine values in equal steps.
       std::string values = amplitudes;

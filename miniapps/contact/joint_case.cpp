@@ -256,7 +256,8 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    made.name = name;
    made.source = source(key);
    key.must_be_of({"mesh", "part", "split", "matrix", "deck", "half-plane", "young", "poisson",
-                   "order", "geometry", "expansion", "support", "load", "guides", "thickness"});
+                   "density", "order", "geometry", "expansion", "support", "load", "guides",
+                   "thickness"});
    const bool is_matrix = key.has("matrix") || key.has("deck");
    const int kinds = key.has("mesh") + is_matrix + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
@@ -271,8 +272,8 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    };
    if (key.has("half-plane"))
    {
-      goes_without("half-plane", {"part", "split", "young", "poisson", "order", "geometry",
-                                  "expansion", "support", "guides", "thickness"});
+      goes_without("half-plane", {"part", "split", "young", "poisson", "density", "order",
+                                  "geometry", "expansion", "support", "guides", "thickness"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
@@ -284,8 +285,9 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    }
    if (is_matrix)
    {
-      goes_without(key.has("matrix") ? "matrix" : "deck",
-                   {"part", "split", "young", "poisson", "expansion", "guides", "thickness"});
+      goes_without(
+         key.has("matrix") ? "matrix" : "deck",
+         {"part", "split", "young", "poisson", "density", "expansion", "guides", "thickness"});
       if (key.has("deck")) { made.deck = key["deck"].file(); }
       made.matrix = key.has("matrix") ? key["matrix"].file() : matrix_of_deck(made.deck);
    }
@@ -307,6 +309,7 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
          made.poisson = key["poisson"].constants(any);
       }
    }
+   if (key.has("density")) { made.density = key["density"].constants(positive); }
    if (key.has("order"))
    {
       made.order = static_cast<int>(key["order"].number(within(1, 8)));

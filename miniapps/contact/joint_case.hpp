@@ -46,6 +46,7 @@ struct JointCase
          bool empty() const { return values.empty() && named.empty(); }
       };
       Constants young, poisson; ///< both empty: those of the deck
+      Constants density;        ///< mass per volume; empty: not given
       double expansion = none;  ///< for temperature loads
       std::string support, load;
       struct Guided

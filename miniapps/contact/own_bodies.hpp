@@ -46,6 +46,7 @@ struct OwnBodies
    Scene scene;
    std::optional<cattaneo::HalfPlane> half_plane;          ///< the last body
    std::vector<std::vector<cattaneo::Material>> materials; ///< of each body
+   std::vector<std::vector<double>> densities; ///< of each body with a mesh; empty: not given
    /// Estimated relative error of the stiffness; for bodies in series that of the worst body at
    /// most.
    double accuracy = 0;

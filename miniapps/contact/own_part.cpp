@@ -194,7 +194,15 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          JointCase::Body made = with_materials(body_, names);
          by_attribute(made.young, body_.source.called("young"), mesh, names);
          by_attribute(made.poisson, body_.source.called("poisson"), mesh, names);
+         by_attribute(made.density, body_.source.called("density"), mesh, names);
          own.materials.push_back(materials(made, attributes, joint_.plane_stress));
+         const std::vector<double> &densities = made.density.values;
+         require(densities.size() < 2 ||
+                    densities.size() == static_cast<std::size_t>(attributes),
+                 body_.source.called("density"), " has ", densities.size(),
+                 " values, must have one, or one for each element attribute of the mesh, 1 to ",
+                 attributes);
+         own.densities.push_back(densities);
          elastic_ =
             &own.scene.add(std::move(mesh), order(), own.materials.back(), joint_.formulation);
          for (const std::string &one : split(body_.support, " ;\t\n"))

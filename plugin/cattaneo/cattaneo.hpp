@@ -2,6 +2,7 @@
 
 // All of Cattaneo for programs that use MFEM.
 #include <cattaneo/contact/interfaces_of_bodies.hpp>
+#include <cattaneo/contact/vibrating_body.hpp>
 #include <cattaneo/core.hpp>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/elastic/rotation.hpp>

@@ -31,6 +31,8 @@
 #include <cattaneo/halfplane/half_space_vtu.hpp>
 #include <cattaneo/halfplane/heights.hpp>
 #include <cattaneo/joints/bolts.hpp>
+#include <cattaneo/joints/modal_loop.hpp>
+#include <cattaneo/joints/vibration.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/readout/areas.hpp>
 #include <cattaneo/readout/small_displacements.hpp>

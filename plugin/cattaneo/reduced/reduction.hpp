@@ -11,6 +11,7 @@ namespace cattaneo
 
 struct Interface;
 struct UnionRows;
+struct ContactMotions;
 
 /// The data of an interface in a reduction.
 struct InterfaceReport
@@ -220,6 +221,7 @@ public:
 private:
    friend Reduction reduce(std::vector<CondensedBody> bodies,
                            const std::vector<Interface> &interfaces);
+   friend ContactMotions contact_motions(const Reduction &reduction);
    /// Multipliers in which the forces of shanks replace their pretensions, for displacements
    /// {v; w} that include the obstacles'.
    Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;

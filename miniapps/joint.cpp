@@ -1,0 +1,172 @@
+//  joint: frequency and damping of a bolted joint against amplitude, mode by mode
+//
+//  Reads a case file as contact does, whose bodies have the key density. Tightens the bolts,
+//  finds the modes of the joint with all closed nodes glued, and swings each mode
+//  quasi-statically at a list of amplitudes: the steady loop of force over modal amplitude has
+//  the frequency and the damping ratio of a vibration. docs/joint_dynamics.md says what is
+//  assumed. Units are the user's: with mm, N and t/mm³ frequencies are in Hz.
+//
+//  Sample runs:
+//    joint --case meshes/bolted_joint.json --modes 4 --amplitudes "1e-7 … 2e-5"
+//    joint --case meshes/bolted_joint_drawing.json --modes 1 --points-of-curve 4
+
+#include "common/run.hpp"
+#include "common/watch.hpp"
+#include "contact/own_bodies.hpp"
+#include "joint/case_of_joint.hpp"
+#include "joint/modal_curves.hpp"
+
+#include <cattaneo/contact/vibrating_body.hpp>
+#include <cattaneo/friction/history_statements.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+using namespace cattaneo;
+using namespace miniapp;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// Every body must have a mass.
+std::vector<VibratingBody> with_mass(const JointCase &joint, const OwnBodies &own)
+{
+   std::vector<VibratingBody> all;
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
+   {
+      const JointCase::Body &body = joint.bodies[b];
+      require(!body.mesh.empty(), "body ", body.name, " is ",
+              body.half_plane ? "a half-plane" : "a matrix",
+              ", which has no mass: all bodies of a joint that vibrates must have meshes");
+      require(!own.densities[b].empty(), body.source.called("density"),
+              " is missing: all bodies of a joint that vibrates must have one (in mm and N "
+              "steel has 7.85e-9)");
+      all.push_back(vibrating_body(*own.scene.bodies[b], own.densities[b]));
+   }
+   return all;
+}
+
+/// A sentence where stiffness, density and length cannot be in the units that the case names.
+void warn_of_units(const JointCase &joint, const OwnBodies &own)
+{
+   const std::map<std::string, double> metres{{"m", 1},      {"cm", 1e-2}, {"mm", 1e-3},
+                                              {"um", 1e-6},  {"µm", 1e-6}, {"in", 0.0254},
+                                              {"ft", 0.3048}};
+   const auto unit = metres.find(joint.unit_of_length);
+   if (unit == metres.end()) { return; }
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
+   {
+      const std::vector<Material> &its = own.materials[b];
+      for (std::size_t a = 0; a < std::max(its.size(), own.densities[b].size()); ++a)
+      {
+         const double young = its[its.size() == 1 ? 0 : a].young,
+                      density = own.densities[b][own.densities[b].size() == 1 ? 0 : a],
+                      speed = std::sqrt(young / density) * unit->second;
+         if (speed >= 100 && speed <= 20000) { continue; }
+         warn(text(
+            "body %s: Young's modulus %g and density %g give a speed of sound of %g m/s in the "
+            "units that the case names. Solids have 100 to 20,000 m/s. With %s and %s the unit "
+            "of density is a mass per %s³, and 1 %s accelerates that mass by 1 %s/s²",
+            joint.bodies[b].name.c_str(), young, density, speed, joint.unit_of_length.c_str(),
+            joint.unit_of_force.c_str(), joint.unit_of_length.c_str(),
+            joint.unit_of_force.c_str(), joint.unit_of_length.c_str()));
+         break;
+      }
+   }
+}
+
+/// The opening part of a history, up to one of its points.
+LoadHistory up_to(const LoadHistory &history, Index point)
+{
+   LoadHistory opening;
+   opening.times = history.times.head(point + 1);
+   opening.multipliers = history.multipliers.leftCols(point + 1);
+   opening.cycles = 1;
+   const auto stated = static_cast<Index>(history.stated.size());
+   opening.stated.assign(history.stated.begin(),
+                         history.stated.begin() + std::min(stated, point + 1));
+   return opening;
+}
+
+/// The point at which the joint is assembled: where its last bolt is tightened, else where its
+/// cycle starts, else its last.
+Index assembled_at(const LoadHistory &history, const JointCase &joint,
+                   const ReducedProblem &problem, int cycle_start)
+{
+   const Index points = history.times.size();
+   Index at = -1;
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      const auto values = history.multipliers.row(problem.pattern(bolt.name));
+      for (Index k = 1; k < points; ++k)
+      {
+         if (values[k] != values[k - 1]) { at = std::max(at, k); }
+      }
+   }
+   return at >= 0 ? at : cycle_start >= 0 ? cycle_start : points - 1;
+}
+
+void joint_study(Study &study)
+{
+   CaseOfJoint options(study);
+   ModalCurves curves(study);
+   study.parse();
+   curves.check_options();
+   const JointCase joint = options.joint();
+   options.name_units(study, joint);
+
+   // 1. Bodies, reduced to their contact nodes.
+   OwnBodies own = make_own_bodies(joint);
+   ReducedProblem &problem = own.scene.problem();
+   require(!problem.patterns.empty(), "there is no load: nothing presses the bodies together");
+   require(problem.nodes() > 0, "all interfaces are tied: the joint is linear, it has one "
+                                "frequency for each mode and no damping");
+   std::vector<VibratingBody> bodies = with_mass(joint, own);
+   warn_of_units(joint, own);
+   study.condensed(own.scene);
+
+   // 2. The march to the state about which it vibrates.
+   const LoadHistory history = load_history("history", options.history, problem);
+   const Index last = history.times.size() - 1;
+   require(options.at_point <= last, "option --at-point is ", options.at_point,
+           ", the history has the points 0 to ", last);
+   const Index point = options.at_point >= 0
+                          ? options.at_point
+                          : assembled_at(history, joint, problem, options.cycle_start);
+   require(point > 0, "option --at-point is 0, where no load acts: it must be 1 at least");
+   const LoadHistory opening = up_to(history, point);
+   opening.validate(problem);
+   ContactState state = ContactState::virgin(problem);
+   MarchSettings settings;
+   settings.keep_increments = false;
+   Watch watch("march");
+   settings.monitor = watch.monitor();
+   const MarchReport report = own.bolted ? own.bolted->march(opening, state, settings)
+                                         : march(problem, opening, state, settings);
+   study.counters += report.counters;
+   add_outcome(problem, report, study.results);
+   study.code = exit_code(problem, report);
+   if (study.code != 0) { return; }
+   study.results["loads"] = named(problem, state.multipliers);
+
+   // 3. Modes with the closed nodes glued.
+   std::vector<Bolt> shanks;
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      shanks.push_back({bolt.name, bolt.stiffness / (bolt.force * bolt.force)});
+   }
+   const VibratingStructure structure(own.scene.reduction, std::move(bodies), shanks);
+   study.say(text("At point %ld of the history:", static_cast<long>(point)));
+   const Modes modes = curves.report_modes(structure, problem, state, joint);
+
+   // 4. Loops of each mode at each amplitude.
+   curves.report_loops(structure, modes, own, joint, state);
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+   return Study::run("joint", argc, argv, joint_study);
+}

@@ -1,0 +1,446 @@
+#include "joint/modal_curves.hpp"
+
+#include "common/run.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/words.hpp>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::VectorXd;
+using nlohmann::ordered_json;
+
+namespace
+{
+
+const double pi = std::acos(-1.0);
+/// A damping ratio without a node that slips.
+constexpr double round_off = 1e-9;
+
+/// "1e-7 … 1e-4" (or ... or to) in equal ratios, or a list of numbers.
+std::vector<double> amplitudes(const std::string &words, int count)
+{
+   const std::vector<std::string> parts = split(words, " ,\t");
+   const auto number = [&](const std::string &word)
+   {
+      const double value = cattaneo::number("option --amplitudes", word);
+      require(value > 0 && std::isfinite(value), "option --amplitudes: ", value,
+              ", must be positive and finite");
+      return value;
+   };
+   std::vector<double> all;
+   if (parts.size() == 3 && (parts[1] == "…" || parts[1] == "..." || parts[1] == "to"))
+   {
+      const double from = number(parts[0]), to = number(parts[2]);
+      require(count >= 2, "option --points-of-curve is ", count,
+              ", must be at least 2 for a range of amplitudes");
+      for (int k = 0; k < count; ++k)
+      {
+         all.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
+      }
+      return all;
+   }
+   for (const std::string &part : parts) { all.push_back(number(part)); }
+   return all;
+}
+
+/// How far a mode moves a place, the length of its displacement per unit of its amplitude.
+double displacement_at(const OwnBodies &own, const JointCase &joint, const Modes &modes,
+                       std::size_t mode, const JointCase::Point &point)
+{
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
+   {
+      if (point.body >= 0 && point.body != static_cast<int>(b)) { continue; }
+      mfem::DenseMatrix place(2, 1);
+      place(0, 0) = point.at[0];
+      place(1, 0) = point.at[1];
+      mfem::Array<int> elements;
+      mfem::Array<mfem::IntegrationPoint> within;
+      own.scene.meshes[b]->FindPoints(place, elements, within, false);
+      if (elements[0] < 0) { continue; }
+      mfem::GridFunction field(&own.scene.bodies[b]->space());
+      const VectorXd &shape = modes.shapes[mode][b];
+      mfem::Vector dofs(static_cast<int>(shape.size()));
+      std::copy(shape.begin(), shape.end(), dofs.begin());
+      field.SetFromTrueDofs(dofs);
+      mfem::Vector moved(2);
+      field.GetVectorValue(elements[0], within[0], moved);
+      return moved.Norml2();
+   }
+   throw InputError("point '" + point.name + "' of option --amplitude-at is in no body");
+}
+
+/// Slope of log y over log x, by least squares of its lower half (three points at least); NaN
+/// with fewer.
+double slope(const std::vector<double> &x, const std::vector<double> &y)
+{
+   std::vector<double> a, b;
+   for (std::size_t k = 0; k < x.size(); ++k)
+   {
+      if (x[k] > 0 && y[k] > 0)
+      {
+         a.push_back(std::log(x[k]));
+         b.push_back(std::log(y[k]));
+      }
+   }
+   const auto used = static_cast<Index>(std::max<std::size_t>(3, (a.size() + 1) / 2));
+   if (static_cast<Index>(a.size()) < used) { return none; }
+   const VectorXd p = Eigen::Map<VectorXd>(a.data(), used),
+                  q = Eigen::Map<VectorXd>(b.data(), used);
+   const VectorXd from_mean = p.array() - p.mean();
+   return from_mean.dot(q) / from_mean.squaredNorm();
+}
+
+/// The first size, from small ones on, at which the frequency is a tenth below that of the
+/// glued mode, or the last before the joint slides as a whole or ratchets.
+double default_size(FrictionSolver &solver, const ReducedProblem &problem,
+                    const ContactState &state, const std::string &mode, double omega,
+                    const ModalLoopSettings &settings)
+{
+   const LoadPattern &load = problem.patterns[problem.pattern(mode)];
+   const double forces = std::hypot(load.q.norm(), load.p.norm());
+   const double force = 1e-6 * std::hypot(state.p.norm(), state.q.norm()) / forces,
+                small = settings.size == LoopSize::energy ? 0.5 * std::pow(force / omega, 2)
+                                                          : force / (omega * omega);
+   ModalLoopSettings rough = settings;
+   rough.tolerance = 0.1;
+   rough.steady_tolerance = 1e-4;
+   double size = small;
+   for (int k = 0; k < 20; ++k, size *= 4)
+   {
+      const ModalLoop loop = modal_loop(solver, problem, state, mode, omega, size, rough);
+      if (loop.steady && std::isnan(loop.sliding_force) && loop.omega > 0.9 * omega)
+      {
+         continue;
+      }
+      if (!loop.steady && std::isnan(loop.sliding_force)) { return size / 4; }
+      const double reached = settings.size == LoopSize::energy ? loop.energy : loop.amplitude;
+      return std::isnan(loop.sliding_force) ? size : 0.9 * std::max(reached, size / 4);
+   }
+   return size;
+}
+
+/// What friction loses at each node, along each interface that loses a hundredth or more.
+void draw_losses(Panel &panel, const std::string &label,
+                 const std::vector<InterfaceReport> &faces, const ModalLoop &loop)
+{
+   for (const InterfaceReport &face : faces)
+   {
+      if (face.tied || face.position.rows() == 0) { continue; }
+      const VectorXd lost = loop.node_dissipation.segment(face.first, face.nodes);
+      if (!(lost.sum() >= 0.01 * loop.dissipation) || loop.zeta < round_off) { continue; }
+      VectorXd along = VectorXd::Zero(face.nodes);
+      for (Index i = 1; i < face.nodes; ++i)
+      {
+         along[i] = along[i - 1] + (face.position.row(i) - face.position.row(i - 1)).norm();
+      }
+      panel.add(label + ", " + face.name, along, lost / loop.dissipation);
+   }
+}
+
+/// "mode 1 (slope 0.98)".
+std::string with_slope(const std::string &name, double slope)
+{
+   return std::isnan(slope) ? name : name + text(" (slope %.2f)", slope);
+}
+
+} // namespace
+
+ModalCurves::ModalCurves(Study &study) : study_(study)
+{
+   study.options().group("Modes and amplitudes");
+   study.option(&modes_, "modes", "Number of modes, the lowest.", at_least(1));
+   study.option(
+      &amplitudes_, "amplitudes",
+      "Amplitudes, as a range in equal ratios, '1e-7 … 1e-4' (or ... in its place), or a "
+      "list. Default: a range of a thousand, which ends where a tenth of the frequency is "
+      "lost or the joint slides or ratchets.");
+   study.option(&count_, "points-of-curve", "Number of amplitudes in a range.", at_least(2));
+   study.option(
+      &kind_, "amplitude-of",
+      "Kind of the amplitudes: modal (half of the range of φᵀ M x), energy (½ α q, of "
+      "the spring of the secant stiffness), or point (the displacement of the glued "
+      "mode at the point of --amplitude-at).",
+      {"modal", "energy", "point"});
+   study.option(&shown_, "shown-amplitude",
+                "Amplitude whose loop and whose losses along the interfaces are drawn, the "
+                "nearest one of the list (default: the largest).",
+                positive);
+   study.option(&at_, "amplitude-at",
+                "Name of a point of the case: its displacement is in the table, and with "
+                "--amplitude-of point amplitudes are displacements there.");
+}
+
+void ModalCurves::check_options()
+{
+   require((kind_ != "point") || !at_.empty(),
+           "option --amplitude-of is point: option --amplitude-at must name it");
+   if (!amplitudes_.empty()) { stated_ = amplitudes(amplitudes_, count_); }
+   require(amplitudes_.empty() || !stated_.empty(), "option --amplitudes is '", amplitudes_,
+           "', must have a number");
+}
+
+Modes ModalCurves::report_modes(const VibratingStructure &structure,
+                                const ReducedProblem &problem, const ContactState &state,
+                                const JointCase &joint)
+{
+   const double mass = structure.mass();
+   const bool plane = joint.formulation == Formulation::plane;
+   study_.value("total_mass", mass,
+                plane && study_.units.per_thickness ? "total mass, per thickness"
+                                                    : "total mass");
+   const GluedRows glued = glued_rows(problem, state);
+   const Modes modes = structure.modes(glued, modes_);
+   int open = 0;
+   for (const NodeState status : state.status) { open += !closed(status); }
+   const int limit = nodes_at_limit(problem, state);
+   study_.results["nodes_glued"] = problem.nodes() - open;
+   study_.results["nodes_open"] = open;
+   study_.results["nodes_at_limit"] = limit;
+   study_.results["rigid_modes_left_out"] = modes.rigid;
+   study_.say(text("   %ld contact nodes are glued, %d of them stand at the limit of friction, "
+                   "and %d are open",
+                   static_cast<long>(problem.nodes() - open), limit, open));
+   if (modes.rigid > 0) { study_.say(text("   %d rigid motions are left out", modes.rigid)); }
+   ResultTable &table = study_.table(
+      "modes", {{"mode", "mode"},
+                {"frequency", "frequency [1/time]", "%.6g"},
+                {"omega"},
+                {"residual", "residual", "%.1e"},
+                {"effective_mass_x", plane ? "mass moved in x, of 1" : "", "%.4f"},
+                {"effective_mass_y", plane ? "in y" : "mass moved in z, of 1", "%.4f"}});
+   for (Index k = 0; k < modes.omega.size(); ++k)
+   {
+      study_.row(table, {k + 1, modes.omega[k] / (2 * pi), modes.omega[k], modes.residuals[k],
+                         modes.effective_mass(k, 0) / mass, modes.effective_mass(k, 1) / mass});
+   }
+   return modes;
+}
+
+double ModalCurves::drawn_size(const ModalLoop &loop, double at_point) const
+{
+   return kind_ == "energy"  ? loop.energy
+          : kind_ == "point" ? loop.amplitude * at_point
+                             : loop.amplitude;
+}
+
+void ModalCurves::report_loops(const VibratingStructure &structure, const Modes &modes,
+                               const OwnBodies &own, const JointCase &joint,
+                               const ContactState &reached)
+{
+   // 1. The problem with the loads of the modes.
+   const ReducedProblem problem = structure.with_modes(modes);
+   study_.save(problem);
+   const ContactState state = structure.with_modes(modes, reached);
+   FrictionSolver solver(problem);
+   const JointCase::Point *point = nullptr;
+   for (const JointCase::Point &one : joint.points)
+   {
+      if (one.name == at_) { point = &one; }
+   }
+   require(at_.empty() || point, "option --amplitude-at is '", at_,
+           "', which is no point of the case (key 'points')");
+
+   // 2. The table and the figure.
+   const std::vector<InterfaceReport> &faces = own.scene.reduction.interfaces;
+   ResultTable &table = study_.table(
+      "loops", {{"mode", "mode"},
+                {"amplitude", "amplitude", "%.4g"},
+                {"at_point", point ? "at " + at_ + study_.units.of(0, 1) : "", "%.4g"},
+                {"frequency", "frequency [1/time]", "%.6g"},
+                {"change", "less than glued by [%]", "%.4f"},
+                {"zeta", "damping ratio", "%.4g"},
+                {"dissipation", "loss" + study_.units.total(1), "%.4g"},
+                {"most_lost", "most at"},
+                {"slipping", "nodes slip"},
+                {"status", "status"},
+                {"omega"},
+                {"omega_secant"},
+                {"zeta_secant"},
+                {"omega_first_loading"},
+                {"zeta_masing"},
+                {"force"},
+                {"energy"},
+                {"area"},
+                {"cycles"},
+                {"state_change"},
+                {"ratchet"},
+                {"sliding_force"}});
+   const std::string size = kind_ == "energy" ? "energy ½ α q" + study_.units.total(1)
+                            : kind_ == "point"
+                               ? "displacement at " + at_ + study_.units.of(0, 1)
+                               : "modal amplitude q = φᵀM x";
+   Panel &frequency = study_.lines("frequency", "Frequency over amplitude", size,
+                                   "frequency over that of the glued mode");
+   Panel &damping = study_.lines("damping", "Damping over amplitude", size, "damping ratio ζ");
+   Panel &softening =
+      study_.lines("softening", "Loss of frequency over amplitude", size, "1 - ω/ω glued");
+   Panel &loops = study_.lines("loop", "Steady loops", "modal amplitude over the largest",
+                               "modal force over the largest");
+   Panel &map = study_.lines("losses", "Where they lose",
+                             "place along the interface" + study_.units.of(0, 1),
+                             "share of the loss of each node");
+   frequency.say("scale", "semilogx");
+   damping.say("scale", "loglog");
+   softening.say("scale", "loglog");
+
+   // 3. Mode after mode.
+   ModalLoopSettings settings;
+   settings.size = kind_ == "energy" ? LoopSize::energy : LoopSize::amplitude;
+   settings.tolerance = 1e-3;
+   for (Index k = 0; k < modes.omega.size(); ++k)
+   {
+      const std::string name = "mode " + std::to_string(k + 1);
+      const double glued = modes.omega[k],
+                   at_point = point ? displacement_at(own, joint, modes,
+                                                      static_cast<std::size_t>(k), *point)
+                                    : none;
+      require(kind_ != "point" || at_point > 0, "mode ", k + 1, " does not move the point '",
+              at_, "': option --amplitude-at must name another");
+      std::vector<double> sizes = stated_, x, zeta, ratio, lost;
+      for (double &its : sizes)
+      {
+         if (kind_ == "point") { its /= at_point; }
+      }
+      if (sizes.empty())
+      {
+         const double most = default_size(solver, problem, state, name, glued, settings);
+         for (int j = 0; j < count_; ++j)
+         {
+            sizes.push_back(most * std::pow(1e-3, 1 - static_cast<double>(j) / (count_ - 1)));
+         }
+      }
+      std::sort(sizes.begin(), sizes.end());
+      ModalLoop drawn, slid;
+      double near = glued; // frequency of the loop before, near which the next one is
+      for (const double its : sizes)
+      {
+         // Beyond an amplitude at which the joint slides it slides as well.
+         const bool beyond = std::isfinite(slid.sliding_force);
+         const ModalLoop loop =
+            beyond ? slid : modal_loop(solver, problem, state, name, near, its, settings);
+         const bool slides = std::isfinite(loop.sliding_force);
+         const bool known = loop.force > 0 && loop.steady && !slides &&
+                            (loop.status == FrictionStatus::converged ||
+                             loop.status == FrictionStatus::not_unique);
+         if (slides) { slid = loop; }
+         if (!known && !slides)
+         {
+            study_.code = 2;
+            std::string where;
+            for (const InterfaceReport &face : faces)
+            {
+               const Index first = face.first, behind = first + face.nodes;
+               if (loop.ratchet > 0 && !face.tied && loop.ratchet_node >= first &&
+                   loop.ratchet_node < behind)
+               {
+                  where = " (interface " + face.name + ")";
+               }
+            }
+            warn(name + text(", amplitude %g: ", its) + loop.message + where);
+         }
+         row(table, loop, its, {k + 1, glued, at_point, known}, faces);
+         if (!known) { continue; }
+         near = loop.omega_secant;
+         x.push_back(drawn_size(loop, at_point));
+         zeta.push_back(loop.zeta);
+         ratio.push_back(loop.omega / glued);
+         lost.push_back(std::max(0.0, 1 - loop.omega / glued));
+         const auto away = [&](const ModalLoop &one)
+         { return std::abs(std::log(drawn_size(one, at_point) / shown_)); };
+         if (drawn.force == 0 || std::isnan(shown_) || away(loop) < away(drawn))
+         {
+            drawn = loop;
+         }
+      }
+      // Damping and loss of frequency without a node that slips are round-off.
+      std::vector<double> lost_drawn = lost, zeta_drawn = zeta;
+      for (std::size_t j = 0; j < x.size(); ++j)
+      {
+         if (zeta_drawn[j] < round_off) { zeta_drawn[j] = none; }
+         if (lost_drawn[j] < 1e-6) { lost_drawn[j] = none; }
+      }
+      const double zeta_slope = slope(x, zeta_drawn), lost_slope = slope(x, lost_drawn);
+      study_.results["slopes"].push_back(
+         {{"mode", k + 1}, {"zeta", zeta_slope}, {"softening", lost_slope}});
+      frequency.add(name, x, ratio);
+      damping.add(with_slope(name, zeta_slope), x, zeta_drawn);
+      softening.add(with_slope(name, lost_slope), x, lost_drawn);
+      if (drawn.force == 0) { continue; }
+      const std::string label = name + text(" at %.3g", drawn_size(drawn, at_point));
+      for (const LoopPoint &one : drawn.points)
+      {
+         loops.point(label, one.amplitude / drawn.amplitude, one.force / drawn.force);
+      }
+      draw_losses(map, label, faces, drawn);
+   }
+}
+
+void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, const Row &of,
+                      const std::vector<InterfaceReport> &faces)
+{
+   // 1. How much each interface loses, and does it slide as a whole at the peak?
+   ordered_json interfaces = ordered_json::object();
+   std::string most_at;
+   double most = 0;
+   int slipping = 0;
+   const bool slips = loop.zeta >= round_off; // below that it is the round-off of the state
+   for (const InterfaceReport &face : faces)
+   {
+      if (face.tied || !of.known) { continue; }
+      const VectorXd lost = loop.node_dissipation.segment(face.first, face.nodes);
+      int touching = 0, slip = 0;
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         touching += closed(loop.peak.status[face.first + i]);
+         slip += slips && lost[i] > 1e-6 * loop.dissipation;
+      }
+      slipping += slip;
+      interfaces[face.name] = {{"loss", lost.sum()},
+                               {"nodes_that_slip", slip},
+                               {"nodes_closed_at_the_peak", touching},
+                               {"node_losses", std::vector<double>(lost.begin(), lost.end())}};
+      if (slips && lost.sum() > most)
+      {
+         most = lost.sum();
+         most_at = face.name + text(" (%.0f %%)", 100 * most / loop.dissipation);
+      }
+   }
+   // 2. The row.
+   const bool slides = std::isfinite(loop.sliding_force);
+   const auto or_none = [&](double value) { return of.known ? value : none; };
+   study_.row(table,
+              {of.mode,
+               of.known ? loop.amplitude : size,
+               or_none(loop.amplitude) * of.at_point,
+               or_none(loop.omega / (2 * pi)),
+               100 * (1 - or_none(loop.omega) / of.glued),
+               or_none(loop.zeta),
+               or_none(loop.dissipation),
+               most_at,
+               slipping,
+               slides             ? text("slides at %.4g", loop.sliding_force)
+               : loop.ratchet > 0 ? text("moves on by %.3g in each cycle", loop.ratchet)
+               : loop.force > 0 && !loop.steady ? text("not steady after %d cycles", loop.cycle)
+                                                : std::string(cattaneo::name(loop.status)),
+               or_none(loop.omega),
+               or_none(loop.omega_secant),
+               or_none(loop.zeta_secant),
+               or_none(loop.omega_first),
+               or_none(loop.zeta_masing),
+               or_none(loop.force),
+               or_none(loop.energy),
+               or_none(loop.area),
+               loop.cycle,
+               loop.change,
+               loop.ratchet,
+               loop.sliding_force},
+              {}, {{"interfaces", interfaces}, {"message", loop.message}});
+}
+
+} // namespace miniapp

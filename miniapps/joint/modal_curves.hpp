@@ -1,0 +1,54 @@
+#pragma once
+
+#include "common/study.hpp"
+#include "contact/own_bodies.hpp"
+
+#include <cattaneo/joints/modal_loop.hpp>
+#include <cattaneo/joints/vibration.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// Options and tables of the modes of a joint, and of their frequency and damping against
+/// amplitude.
+class ModalCurves
+{
+public:
+   explicit ModalCurves(Study &study);
+   /// After parsing. InputError naming the option.
+   void check_options();
+
+   /// The modes about a state, printed.
+   cattaneo::Modes report_modes(const cattaneo::VibratingStructure &structure,
+                                const cattaneo::ReducedProblem &problem,
+                                const cattaneo::ContactState &state, const JointCase &joint);
+   /// The loops of all modes at all amplitudes, printed and drawn. The exit code of the study
+   /// is 2 where one of them could not be found for another reason than that the joint slides.
+   void report_loops(const cattaneo::VibratingStructure &structure,
+                     const cattaneo::Modes &modes, const OwnBodies &own, const JointCase &joint,
+                     const cattaneo::ContactState &state);
+
+private:
+   /// The mode of a row, its glued frequency, its displacement at the point, and is there a
+   /// steady loop of the size that is asked for?
+   struct Row
+   {
+      Eigen::Index mode;
+      double glued, at_point;
+      bool known;
+   };
+   /// What stands on the axis of amplitudes.
+   double drawn_size(const cattaneo::ModalLoop &loop, double at_point) const;
+   void row(ResultTable &table, const cattaneo::ModalLoop &loop, double size, const Row &of,
+            const std::vector<cattaneo::InterfaceReport> &faces);
+
+   Study &study_;
+   int modes_ = 3, count_ = 10;
+   double shown_ = none;
+   std::string amplitudes_, kind_ = "modal", at_;
+   std::vector<double> stated_; ///< amplitudes as the options have them
+};
+
+} // namespace miniapp

@@ -1,0 +1,581 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/joints/modal_loop.hpp>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <sstream>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+const double pi = std::acos(-1.0);
+
+bool solved(FrictionStatus status)
+{
+   return status == FrictionStatus::converged || status == FrictionStatus::not_unique;
+}
+
+/** ∮ α cos θ dθ, with q = middle + half cos θ. Between two points α is linear in q,
+    α = a + b cos θ, so that each piece has a closed form. */
+double first_harmonic(const std::vector<LoopPoint> &points, double middle, double half)
+{
+   const auto angle = [&](double q)
+   { return std::acos(std::clamp((q - middle) / half, -1.0, 1.0)); };
+   const auto antiderivative = [](double a, double b, double theta)
+   { return a * std::sin(theta) + b * (theta / 2 + std::sin(2 * theta) / 4); };
+   double sum = 0;
+   for (std::size_t k = 1; k < points.size(); ++k)
+   {
+      const LoopPoint &from = points[k - 1], &to = points[k];
+      const double dq = to.amplitude - from.amplitude;
+      if (dq == 0) { continue; } // θ stays
+      const double slope = (to.force - from.force) / dq,
+                   a = from.force + slope * (middle - from.amplitude), b = slope * half;
+      // While q falls θ runs from 0 to π, while it rises from π to 2π.
+      const double start = angle(from.amplitude), end = angle(to.amplitude);
+      const double first = dq < 0 ? start : 2 * pi - start, last = dq < 0 ? end : 2 * pi - end;
+      sum += antiderivative(a, b, last) - antiderivative(a, b, first);
+   }
+   return sum;
+}
+
+/// Work over a curve from its beginning, by trapezoids.
+double work_along(const std::vector<LoopPoint> &points)
+{
+   double work = 0;
+   for (std::size_t k = 1; k < points.size(); ++k)
+   {
+      work += 0.5 * (points[k - 1].force + points[k].force) *
+              (points[k].amplitude - points[k - 1].amplitude);
+   }
+   return work;
+}
+
+/// The least and the largest modal amplitude.
+std::pair<double, double> ends(const std::vector<LoopPoint> &points)
+{
+   const auto [least, most] = std::minmax_element(points.begin(), points.end(),
+                                                  [](const LoopPoint &a, const LoopPoint &b)
+                                                  { return a.amplitude < b.amplitude; });
+   return {least->amplitude, most->amplitude};
+}
+
+double half_range(const std::vector<LoopPoint> &points)
+{
+   const auto [least, most] = ends(points);
+   return 0.5 * (most - least);
+}
+
+/// Cycles of a march, one after the other: the points of the present one, and how far its end
+/// is from its beginning.
+class Cycles
+{
+public:
+   explicit Cycles(double tolerance) : tolerance_(tolerance) {}
+
+   /// A cycle begins at a state.
+   void begin(const ContactState &state, const LoopPoint &point)
+   {
+      begin_ = state;
+      points.assign(1, point);
+      loss_ = 0;
+      least_ = most_ = {state.displacements(), state.forces()};
+   }
+   void add(const ContactState &state, const LoopPoint &point, double loss)
+   {
+      points.push_back(point);
+      loss_ += loss;
+      const Fields now{state.displacements(), state.forces()};
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+         least_[k] = least_[k].cwiseMin(now[k]);
+         most_[k] = most_[k].cwiseMax(now[k]);
+      }
+   }
+   /// The cycle ends at a state.
+   void end(const ContactState &state)
+   {
+      // 1. The largest change, of displacements or of forces, beyond round-off.
+      const Fields from{begin_.displacements(), begin_.forces()},
+         to{state.displacements(), state.forces()};
+      const double before = change;
+      std::array<double, 2> changes{0, 0};
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+         const double by = (to[k] - from[k]).lpNorm<Eigen::Infinity>() -
+                           1e-12 * to[k].lpNorm<Eigen::Infinity>();
+         if (by > 0) { changes[k] = by / (most_[k] - least_[k]).lpNorm<Eigen::Infinity>(); }
+      }
+      change = std::max(changes[0], changes[1]);
+      // 2. Changes that fall in a ratio add up to more than the next one.
+      const double ratio = expected_.size() > 0      ? ratio_
+                           : count > 0 && before > 0 ? change / before
+                                                     : 1;
+      const double left = ratio < 1 ? change * std::max(1.0, ratio / (1 - ratio)) : change;
+      // 3. Work along the loop that is no loss is stored: the state is another one.
+      const double round_off =
+         1e-12 * std::abs(points[0].force) * half_range(points) +
+         1e-13 * to[0].lpNorm<Eigen::Infinity>() * to[1].lpNorm<Eigen::Infinity>();
+      steady = left <= tolerance_ &&
+               std::abs(work_along(points) - loss_) <= tolerance_ * loss_ + round_off;
+      // 4. The same displacements are added in each cycle, while forces repeat.
+      const VectorXd drift = to[0] - from[0];
+      ratchets = !steady && changes[1] <= tolerance_ && changes[0] > 1e-6 &&
+                 drift_.size() == drift.size() &&
+                 (drift - drift_).norm() <= 1e-6 * drift.norm();
+      // 5. Is it seen where the cycles go?
+      ++count;
+      find_jump(state, drift, 1e-12 * to[0].norm());
+      drift_ = drift;
+      status_ = state.status;
+      if (goes_back) { steady = ratchets = false; }
+   }
+   /// On to where many cycles lead if they go on as the last ones did. The equations of the
+   /// node states are linear, so that such a state obeys them. Or back to where the last such
+   /// jump began, if the cycle after it was not the one that was expected.
+   void jump(ContactState &state)
+   {
+      if (goes_back)
+      {
+         state = before_.state;
+         drift_ = before_.drift;
+         goes_back = false;
+         cycles_ /= 4;
+         expected_.resize(0);
+         if (cycles_ < 2)
+         {
+            // The march goes on by itself, and comes past what stands in the way.
+            drift_.resize(0);
+            wait_ = 3;
+            return;
+         }
+      }
+      else { before_ = {state, drift_, begin_.forces()}; }
+      const double all = std::pow(ratio_, cycles_),
+                   ahead = ratio_ * (1 - all) / (1 - ratio_); // in drifts
+      const VectorXd forces = ahead * (state.forces() - before_.forces);
+      expected_ = all * ratio_ * drift_;
+      state.v += ahead * drift_.head(state.v.size());
+      state.w += ahead * drift_.tail(state.w.size());
+      state.q += forces.head(state.q.size());
+      state.p += forces.tail(state.p.size());
+   }
+
+   std::vector<LoopPoint> points;                   ///< of the present cycle
+   int count = 0;                                   ///< ended ones
+   double change = 0;                               ///< of the last one, over what moves in it
+   bool steady = false;                             ///< the last one
+   bool ratchets = false;                           ///< each cycle adds the same displacements
+   bool can_jump = false;                           ///< is it seen where the cycles go?
+   bool goes_back = false;                          ///< the last jump was wrong
+   const VectorXd &drift() const { return drift_; } ///< displacements added by the last cycle
+
+private:
+   using Fields = std::array<VectorXd, 2>; // displacements, forces
+
+   /// Displacements of cycles in one direction, in one ratio, lead somewhere.
+   void find_jump(const ContactState &state, const VectorXd &drift, double round_off)
+   {
+      // 1. After a jump one cycle shows whether it was right.
+      can_jump = false;
+      if (expected_.size() > 0)
+      {
+         goes_back = (drift - expected_).norm() > 0.3 * expected_.norm() + round_off ||
+                     status_ != state.status;
+         expected_.resize(0);
+         cycles_ *= 2;
+         can_jump = goes_back || drift.norm() > round_off;
+         return;
+      }
+      // 2. Otherwise three cycles are compared, by twos.
+      if (wait_ > 0) { --wait_; }
+      else if (drift_.size() == drift.size() && status_ == state.status &&
+               begin_.status == state.status)
+      {
+         const double before = ratio_;
+         ratio_ = drift.dot(drift_) / drift_.squaredNorm();
+         can_jump = ratio_ > 0.3 && ratio_ < 0.99 &&
+                    std::abs(ratio_ - before) <= 0.1 * (1 - ratio_) &&
+                    (drift - ratio_ * drift_).norm() <= 0.02 * drift.norm();
+         cycles_ = std::log(0.1) / std::log(ratio_);
+      }
+   }
+
+   double tolerance_, loss_ = 0;
+   ContactState begin_;
+   Fields least_, most_;
+   VectorXd drift_; // of the displacements in the cycle before
+   std::vector<NodeState> status_;
+   double ratio_ = 0, cycles_ = 0; // of drifts, and how many of them a jump leaves out
+   VectorXd expected_;             // drift of the cycle after a jump
+   int wait_ = 0;                  // cycles without a jump
+   struct
+   {
+      ContactState state;
+      VectorXd drift, forces; // forces at the beginning of the cycle
+   } before_;                 // the last jump
+};
+
+/// A loop that was found, or why there is none.
+struct Swing
+{
+   FrictionStatus status = FrictionStatus::converged;
+   std::string message;
+   double event_force = 0; ///< at which equilibria end
+   bool rough = false;     ///< it was left before it was steady, see Swings::to_and_fro()
+   ModalLoop loop;
+};
+
+/// Swings of one load about a state.
+class Swings
+{
+public:
+   Swings(FrictionSolver &solver, const ReducedProblem &problem, Index load,
+          const ModalLoopSettings &settings)
+      : solver_(solver), problem_(problem), load_(load), settings_(settings),
+        march_(settings.march)
+   {
+      march_.increments_of_piece.clear();
+      march_.every_event = march_.stepping == Stepping::exact && problem_.components() < 2;
+      if (march_.every_event) { march_.increments = 1; }
+      march_.keep_increments = false;
+      march_.loss_error = false;
+      march_.stop_at_steady_state = false;
+   }
+
+   /// From a state to the force, and then to and fro until a cycle repeats. A loop that is far
+   /// from the size that is asked for is left as soon as this is certain.
+   /// @param off  logarithm of the size over that, for the force and half the range of q; 0: it
+   ///             is not far
+   Swing to_and_fro(double force, ContactState state,
+                    const std::function<double(double, double)> &off) const
+   {
+      Swing made;
+      Cycles cycles(settings_.steady_tolerance);
+      for (bool opens = state.multipliers[load_] != force;; opens = false)
+      {
+         // 1. March until a cycle repeats, or until it can be foreseen where they come to.
+         make_ready(state);
+         cycles.begin(state, point(state));
+         const double start = opens ? 1 : 0;
+         std::atomic<bool> stop{settings_.march.monitor.stopped()};
+         MarchSettings march = march_;
+         march.monitor.stop = &stop;
+         const MarchReport report = cattaneo::march(
+            solver_, history(state, force, opens, settings_.cycles - cycles.count), state,
+            march,
+            [&](const ContactState &now, const IncrementRecord &record)
+            {
+               if (settings_.march.monitor.stopped()) { stop = true; }
+               const LoopPoint here{record.multipliers[load_], record.conjugates[load_]};
+               if (record.cycle == 0)
+               {
+                  // The last of these is where the first cycle begins.
+                  cycles.begin(now, here);
+                  return;
+               }
+               cycles.add(now, here, record.friction_work);
+               if (record.time < start + 2 * record.cycle) { return; }
+               cycles.end(now);
+               made.rough =
+                  !cycles.steady &&
+                  cycles.change < 0.02 * std::abs(off(force, half_range(cycles.points)));
+               if (cycles.steady || cycles.ratchets || made.rough ||
+                   (cycles.can_jump && march_.every_event))
+               {
+                  stop = true;
+               }
+               else if (cycles.count < settings_.cycles) { cycles.begin(now, here); }
+            });
+         // 2. Is it asked to stop, or is there no equilibrium?
+         made.status = report.not_unique ? FrictionStatus::not_unique : report.status;
+         made.message = report.not_unique ? report.not_unique->message : report.message;
+         const bool known = solved(made.status) || (made.status == FrictionStatus::stopped &&
+                                                    !settings_.march.monitor.stopped());
+         if (!known || report.cycles.empty())
+         {
+            if (report.event_multipliers.size() > load_)
+            {
+               made.event_force = std::abs(report.event_multipliers[load_]);
+            }
+            return made;
+         }
+         if (made.status == FrictionStatus::stopped)
+         {
+            made.status = FrictionStatus::converged;
+            made.message.clear();
+         }
+         // 3. The loop, or on from where the cycles come to.
+         if (cycles.steady || cycles.ratchets || made.rough || cycles.count >= settings_.cycles)
+         {
+            read(cycles, report.cycles.back(), force, std::move(state), made.loop);
+            return made;
+         }
+         cycles.jump(state);
+      }
+   }
+
+   /// The first loading to the force of a loop, for comparison.
+   void compare(const ContactState &from, ModalLoop &loop) const
+   {
+      ContactState state = from;
+      make_ready(state);
+      std::vector<LoopPoint> points{{0, 0}};
+      const LoopPoint start = point(state);
+      LoadHistory opening = history(state, loop.force, true, 0);
+      march(solver_, opening, state, march_,
+            [&](const ContactState &, const IncrementRecord &record) {
+               points.push_back(
+                  {record.multipliers[load_], record.conjugates[load_] - start.amplitude});
+            });
+      // Masing: both branches of the loop are the first curve, doubled.
+      const LoopPoint &end = points.back();
+      loop.omega_first = std::sqrt(end.force / end.amplitude);
+      const double masing = 8 * (work_along(points) - 0.5 * end.force * end.amplitude);
+      loop.zeta_masing = masing / (2 * pi * end.force * end.amplitude);
+   }
+
+private:
+   LoopPoint point(const ContactState &state) const
+   {
+      return {state.multipliers[load_], conjugates(problem_, state)[load_]};
+   }
+   static void make_ready(ContactState &state)
+   {
+      state.time = state.step = state.dissipation = 0;
+      state.cycle.reset();
+      state.cycle_slip.clear();
+   }
+   /// `opens`: begins with the way to the force. @param cycles 0: that way alone
+   LoadHistory history(const ContactState &state, double force, bool opens, int cycles) const
+   {
+      const std::vector<double> way =
+         cycles == 0 ? std::vector<double>{state.multipliers[load_], force}
+         : opens     ? std::vector<double>{state.multipliers[load_], force, -force, force}
+                     : std::vector<double>{force, -force, force};
+      const auto points = static_cast<Index>(way.size());
+      LoadHistory made;
+      made.times = VectorXd::LinSpaced(points, 0, static_cast<double>(points - 1));
+      made.multipliers = state.multipliers.replicate(1, points);
+      made.multipliers.row(load_) = Eigen::Map<const Eigen::RowVectorXd>(way.data(), points);
+      made.cycle_start = cycles == 0 ? -1 : opens ? 1 : 0;
+      made.cycles = std::max(cycles, 1);
+      return made;
+   }
+   void read(const Cycles &cycles, const CycleRecord &last, double force, ContactState state,
+             ModalLoop &loop) const
+   {
+      const std::vector<LoopPoint> &points = cycles.points;
+      const auto [least, most] = ends(points);
+      const double half = 0.5 * (most - least), middle = 0.5 * (most + least);
+      loop.cycle = cycles.count;
+      loop.steady = cycles.steady;
+      loop.change = cycles.change;
+      if (cycles.ratchets)
+      {
+         Index row = 0;
+         loop.ratchet = cycles.drift().cwiseAbs().maxCoeff(&row);
+         loop.ratchet_node = row % problem_.nodes();
+      }
+      loop.force = force;
+      loop.amplitude = half;
+      loop.energy = 0.5 * force * half;
+      loop.omega_secant = std::sqrt(force / half);
+      loop.dissipation = last.dissipation;
+      loop.node_dissipation = last.node_dissipation;
+      loop.area = work_along(points);
+      loop.zeta_secant = loop.dissipation / (2 * pi * force * half);
+      const double square = first_harmonic(points, middle, half) / (pi * half);
+      loop.omega = std::sqrt(square);
+      loop.zeta = loop.dissipation / (2 * pi * square * half * half);
+      loop.middle = middle;
+      loop.points = points;
+      for (LoopPoint &each : loop.points) { each.amplitude -= middle; }
+      loop.peak = std::move(state);
+   }
+
+   FrictionSolver &solver_;
+   const ReducedProblem &problem_;
+   Index load_;
+   const ModalLoopSettings &settings_;
+   MarchSettings march_;
+};
+
+/// The force of a loop of a size, between one that is too small and one that is too large: by
+/// regula falsi of logarithms, in which an end that stays a second time counts half (Illinois).
+class ForceSearch
+{
+public:
+   ForceSearch(double first, double power, double tolerance)
+      : force(first), power_(power), tolerance_(tolerance)
+   {
+   }
+
+   /// A loop with the force has this size over the one that is asked for.
+   void found(double value)
+   {
+      const double off = std::log(value);
+      if (value > 1)
+      {
+         high_ = force;
+         at_high_ = off;
+         if (side_ == 1) { at_low_ *= 0.5; }
+         side_ = 1;
+      }
+      else
+      {
+         // The joint remembers what it went through: a force may do less now than before.
+         if (std::isfinite(at_high_) && high_ - force <= 1e-7 * high_)
+         {
+            high_ = at_high_ = infinity;
+         }
+         low_ = force;
+         at_low_ = off;
+         if (side_ == -1) { at_high_ *= 0.5; }
+         side_ = -1;
+      }
+      next(value);
+   }
+   /// No loop has the force, and none has one beyond `limit`.
+   void slides(double limit)
+   {
+      high_ = sliding = std::min(force, limit > low_ ? limit : force);
+      at_high_ = infinity;
+      side_ = 0;
+      next(1);
+   }
+   /// Do both ends agree? The largest loop before the joint slides is needed less exactly.
+   bool closed() const
+   {
+      const double allowed = std::isnan(sliding) ? 1e-9 : std::max(1e-9, 100 * tolerance_);
+      return std::isfinite(high_) && high_ - low_ <= allowed * high_;
+   }
+
+   double force;
+   double sliding = std::numeric_limits<double>::quiet_NaN();
+
+private:
+   void next(double value)
+   {
+      // A structure in which nothing slips is linear, and a joint that does is softer.
+      if (low_ == 0 && std::isnan(sliding)) { force /= std::pow(value, power_); }
+      else if (std::isfinite(at_high_) && low_ > 0)
+      {
+         force = std::exp(std::log(low_) +
+                          (std::log(high_) - std::log(low_)) * at_low_ / (at_low_ - at_high_));
+      }
+      else if (std::isfinite(high_)) { force = 0.5 * (low_ + high_); }
+      else { force /= std::pow(value, power_); }
+   }
+
+   static constexpr double infinity = std::numeric_limits<double>::infinity();
+   double power_, tolerance_, low_ = 0, high_ = infinity, at_low_ = 0, at_high_ = infinity;
+   int side_ = 0; // of the last loop
+};
+
+} // namespace
+
+ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
+                     const ContactState &state, const std::string &load, double omega,
+                     double size, const ModalLoopSettings &settings)
+{
+   const auto k = static_cast<Index>(problem.pattern(load));
+   require(problem.patterns[k].control == Control::force, "modal loop: the load '", load,
+           "' prescribes displacements, must be forces");
+   require_positive("modal loop: size", size);
+   require_positive("modal loop: omega", omega);
+   require(problem.knows_loads(),
+           "modal loop: the response H of the loads is not known, must be");
+   require(settings.cycles >= 2, "modal loop: cycles is ", settings.cycles,
+           ", must be at least 2, since the first is not steady");
+   require(state.multipliers.size() == static_cast<Index>(problem.patterns.size()) &&
+              state.multipliers[k] == 0,
+           "modal loop: the state has not the loads of the problem, or that of '", load,
+           "' is not zero");
+   const Swings swings(solver, problem, k, settings);
+   const bool by_energy = settings.size == LoopSize::energy;
+   ForceSearch search(by_energy ? omega * std::sqrt(2 * size) : omega * omega * size,
+                      by_energy ? 0.5 : 1, settings.tolerance);
+   ContactState below = state; // at the end of the largest loop that was not too large
+   ModalLoop best;
+   std::string slides;
+   const auto value_of = [&](double force, double half)
+   { return (by_energy ? 0.5 * force * half : half) / size; };
+   const auto off = [&](double force, double half)
+   {
+      const double value = value_of(force, half);
+      // The largest loop before the joint slides is asked for as it is.
+      return std::abs(value - 1) <= settings.tolerance || slides.size() > 0 ? 0
+                                                                            : std::log(value);
+   };
+   for (int count = 0; count < 100 && !search.closed(); ++count)
+   {
+      Swing trial = swings.to_and_fro(search.force, below, off);
+      if (!solved(trial.status))
+      {
+         if (trial.status == FrictionStatus::stopped || trial.status == FrictionStatus::stalled)
+         {
+            best.status = trial.status;
+            best.message = trial.message;
+            return best;
+         }
+         slides = trial.message;
+         search.slides(trial.event_force);
+         continue;
+      }
+      const double value = value_of(trial.loop.force, trial.loop.amplitude);
+      const bool enough = std::abs(value - 1) <= settings.tolerance,
+                 unsteady = !trial.loop.steady && !trial.rough;
+      if (unsteady && !slides.empty()) { break; } // close below the force at which it slides
+      if (value <= 1) { below = trial.loop.peak; }
+      if (!trial.rough && (value <= 1 || enough || unsteady))
+      {
+         best = std::move(trial.loop);
+         best.status = trial.status;
+         best.message = trial.message;
+      }
+      if (enough || unsteady) { break; }
+      search.found(value);
+   }
+   if (best.force > 0) { swings.compare(state, best); }
+   const double reached =
+      best.force > 0 ? (by_energy ? best.energy : best.amplitude) / size : 0;
+   if (best.force > 0 && !best.steady)
+   {
+      std::ostringstream message;
+      message << std::setprecision(3);
+      if (best.ratchet > 0)
+      {
+         message << "the joint ratchets: forces repeat, and each cycle moves node "
+                 << best.ratchet_node << " on by " << best.ratchet;
+      }
+      else
+      {
+         message << "not steady after " << best.cycle
+                 << " cycles, the last one still changed the state by " << best.change
+                 << " of what moves in it";
+      }
+      best.message = message.str();
+   }
+   else if (std::abs(reached - 1) > settings.tolerance)
+   {
+      best.status = std::isnan(search.sliding) ? FrictionStatus::no_solution
+                                               : FrictionStatus::gross_sliding;
+      best.sliding_force = search.sliding;
+      best.message = std::isnan(search.sliding)
+                        ? "no loop of the size that is asked for was found"
+                        : "the joint slides as a whole before a loop is so large: " + slides;
+   }
+   return best;
+}
+
+} // namespace cattaneo

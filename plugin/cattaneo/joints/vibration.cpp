@@ -1,0 +1,527 @@
+#include <Eigen/QR>
+#include <algorithm>
+#include <cattaneo/algebra/sparse_eigenpairs.hpp>
+#include <cattaneo/algebra/sparse_factor.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/joints/vibration.hpp>
+#include <cattaneo/reduced/contact_motions.hpp>
+#include <cmath>
+#include <numeric>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+SparseView view_of(const RowMatrix &A)
+{
+   return {A.rows(),          A.cols(),          A.nonZeros(),
+           A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
+}
+
+/// The dofs of a body's contact nodes, {x; y} or {x; y; z}.
+std::vector<int> contact_dofs_of(const CondensedBody &body)
+{
+   const auto n = static_cast<int>(body.nodes());
+   const int components = cattaneo::components(body.line.formulation);
+   std::vector<int> dofs;
+   for (int c = 0; c < components; ++c)
+   {
+      for (int i = 0; i < n; ++i)
+      {
+         dofs.push_back(body.line.formulation == Formulation::space
+                           ? body.surface.nodes[i].dofs[c]
+                           : body.line.nodes[i].dofs[c]);
+      }
+   }
+   return dofs;
+}
+
+std::string name_of_mode(Index k)
+{
+   return "mode " + std::to_string(k + 1);
+}
+
+/// Round-off of a quadratic form xᵀ A x, by the sizes of its terms.
+bool is_round_off(const RowMatrix &A, const VectorXd &x, double value)
+{
+   double terms = 0;
+   for (Index row = 0; row < A.rows(); ++row)
+   {
+      for (RowMatrix::InnerIterator it(A, row); it; ++it)
+      {
+         terms += std::abs(x[row] * it.value() * x[it.col()]);
+      }
+   }
+   return std::abs(value) <= 1e-12 * terms;
+}
+
+} // namespace
+
+GluedRows glued_rows(const ReducedProblem &problem, const ContactState &state)
+{
+   const Index n = problem.nodes(), m = problem.slips();
+   GluedRows glued(m + n, false);
+   for (Index i = 0; i < n; ++i)
+   {
+      if (!closed(state.status[i])) { continue; }
+      glued[m + i] = true;
+      for (Index row = i; row < m; row += n) { glued[row] = problem.friction[i] > 0; }
+   }
+   for (const Index row : problem.held) { glued[row] = true; }
+   return glued;
+}
+
+int nodes_at_limit(const ReducedProblem &problem, const ContactState &state)
+{
+   int count = 0;
+   for (Index i = 0; i < problem.nodes(); ++i)
+   {
+      count += slips(state.status[i]) && problem.friction[i] > 0;
+   }
+   return count;
+}
+
+struct VibratingStructure::Parts
+{
+   std::vector<VibratingBody> bodies;
+   std::vector<double> thickness;  ///< of each body
+   std::vector<RowMatrix> motions; ///< of each body: dofs × coordinates
+   RowMatrix K, M;                 ///< of all coordinates
+   std::vector<int> rest;          ///< coordinates that are no relative displacements
+   std::vector<int> relative;      ///< coordinate of each row {v; w} of the problem, -1: held
+
+   /// Forces on the dofs of all bodies as forces on the coordinates.
+   VectorXd on_coordinates(const std::vector<VectorXd> &forces) const
+   {
+      VectorXd sum = VectorXd::Zero(K.rows());
+      for (std::size_t b = 0; b < forces.size(); ++b)
+      {
+         sum += motions[b].transpose() * forces[b];
+      }
+      return sum;
+   }
+   void add_body(const Reduction &reduction, const ContactMotions &contact, std::size_t b,
+                 int first_column, int columns);
+   void add_shank(const Reduction &reduction, const Bolt &bolt);
+   /// All that the coordinates beside the relative displacements answer: K_rr⁻¹ f_r, where
+   /// motions that nothing resists are left at rest.
+   class Answer;
+   void check(const ReducedProblem &problem, const Answer &answer) const;
+};
+
+/// Solves with the stiffness of the coordinates that are no relative displacements: all contact
+/// nodes are clamped.
+class VibratingStructure::Parts::Answer
+{
+public:
+   Answer(const Parts &parts, const MatrixXd &rigid)
+      : parts_(parts), keep_(without_pins(parts, rigid)),
+        factor_(view_of(parts.K), keep_, 0, 0.0)
+   {
+   }
+   /// Of all coordinates; those at rest are 0.
+   VectorXd solve(const VectorXd &forces) const
+   {
+      VectorXd x = VectorXd::Zero(parts_.K.rows());
+      x(keep_) = factor_.solve(MatrixXd(forces(keep_))).col(0);
+      return x;
+   }
+
+private:
+   /// Where the structure floats as many coordinates are held as it has motions. Loads on it
+   /// balance each other, so that these carry nothing.
+   static std::vector<int> without_pins(const Parts &parts, const MatrixXd &rigid)
+   {
+      if (rigid.cols() == 0) { return parts.rest; }
+      const MatrixXd rows = rigid(parts.rest, Eigen::all);
+      const Eigen::ColPivHouseholderQR<MatrixXd> qr(rows.transpose());
+      std::vector<bool> pinned(parts.rest.size(), false);
+      for (Index k = 0; k < rigid.cols(); ++k)
+      {
+         pinned[qr.colsPermutation().indices()[k]] = true;
+      }
+      std::vector<int> keep;
+      for (std::size_t k = 0; k < parts.rest.size(); ++k)
+      {
+         if (!pinned[k]) { keep.push_back(parts.rest[k]); }
+      }
+      return keep;
+   }
+
+   const Parts &parts_;
+   std::vector<int> keep_;
+   SparseFactor factor_;
+};
+
+/// The columns of a body: each dof beyond the contact is a coordinate of its own, as is each
+/// block; the coordinates of the contact stand behind those of all bodies.
+void VibratingStructure::Parts::add_body(const Reduction &reduction,
+                                         const ContactMotions &contact, std::size_t b,
+                                         int first_column, int columns)
+{
+   const AssembledBody &body = bodies[b].body;
+   const std::vector<int> dofs = contact_dofs_of(reduction.bodies[b]);
+   std::vector<bool> other(body.K.size(), true); // neither fixed nor of the contact
+   for (int dof : body.fixed) { other[dof] = false; }
+   for (int dof : dofs)
+   {
+      if (dof >= 0) { other[dof] = false; }
+   }
+   std::vector<Eigen::Triplet<double>> entries;
+   int column = first_column;
+   for (int dof = 0; dof < body.K.size(); ++dof)
+   {
+      if (other[dof]) { entries.emplace_back(dof, column++, 1.0); }
+   }
+   for (const BlockMotion &block : body.blocks)
+   {
+      for (int dof : body.fixed)
+      {
+         if (block.motion[dof] != 0) { entries.emplace_back(dof, column, block.motion[dof]); }
+      }
+      ++column;
+   }
+   const int behind = columns - contact.coordinates;
+   const Eigen::SparseMatrix<double> &its = contact.of_body[b];
+   for (Index c = 0; c < its.outerSize(); ++c)
+   {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(its, c); it; ++it)
+      {
+         const int dof = dofs[it.row()];
+         if (std::binary_search(body.fixed.begin(), body.fixed.end(), dof)) { continue; }
+         entries.emplace_back(dof, behind + static_cast<int>(c), it.value());
+      }
+   }
+   motions.emplace_back(body.K.size(), columns);
+   motions.back().setFromTriplets(entries.begin(), entries.end());
+   const RowMatrix &Z = motions.back();
+   const RowMatrix KZ = thickness[b] * (body.K.view() * Z),
+                   MZ = thickness[b] * (bodies[b].M.view() * Z);
+   K += RowMatrix(Z.transpose() * KZ);
+   M += RowMatrix(Z.transpose() * MZ);
+}
+
+/// A spring on the load's forces: stiffness · F Fᵀ.
+void VibratingStructure::Parts::add_shank(const Reduction &reduction, const Bolt &bolt)
+{
+   std::vector<VectorXd> forces;
+   bool found = false;
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      forces.emplace_back(VectorXd::Zero(bodies[b].body.K.size()));
+      for (const BodyLoad &load : bodies[b].body.loads)
+      {
+         if (load.name != bolt.load) { continue; }
+         forces.back() += thickness[b] * load.values;
+         found = true;
+      }
+   }
+   require(
+      found, "vibration: no body has the load '", bolt.load, "' of a bolt, one must (loads: ",
+      [&]
+      {
+         std::string all;
+         for (const LoadPattern &pattern : reduction.problem.patterns)
+         {
+            all += (all.empty() ? "" : ", ") + pattern.name;
+         }
+         return all;
+      }(),
+      ")");
+   const VectorXd F = on_coordinates(forces);
+   const Eigen::SparseVector<double> sparse = F.sparseView();
+   std::vector<Eigen::Triplet<double>> entries;
+   for (Eigen::SparseVector<double>::InnerIterator i(sparse); i; ++i)
+   {
+      for (Eigen::SparseVector<double>::InnerIterator j(sparse); j; ++j)
+      {
+         entries.emplace_back(static_cast<int>(i.index()), static_cast<int>(j.index()),
+                              bolt.stiffness * i.value() * j.value());
+      }
+   }
+   RowMatrix spring(K.rows(), K.cols());
+   spring.setFromTriplets(entries.begin(), entries.end());
+   K += spring;
+}
+
+/// The stiffness of the problem must be what the bodies have, for one displacement of all
+/// nodes.
+void VibratingStructure::Parts::check(const ReducedProblem &problem, const Answer &answer) const
+{
+   const auto rows = static_cast<Index>(relative.size());
+   VectorXd u = VectorXd::Zero(rows), x = VectorXd::Zero(K.rows());
+   for (Index row = 0; row < rows; ++row)
+   {
+      if (relative[row] < 0) { continue; }
+      u[row] = std::sin(1.0 + static_cast<double>(row));
+      x[relative[row]] = u[row];
+   }
+   x -= answer.solve(K * x);
+   const VectorXd f = K * x, expected = problem.K * u;
+   double difference = 0;
+   for (Index row = 0; row < rows; ++row)
+   {
+      if (relative[row] < 0) { continue; }
+      difference = std::max(difference, std::abs(f[relative[row]] - expected[row]));
+   }
+   require(difference <= 1e-6 * expected.cwiseAbs().maxCoeff(),
+           "vibration: the stiffness of the bodies is not that of the reduced problem (by ",
+           difference / expected.cwiseAbs().maxCoeff(),
+           " of it), must be: all bolts that are springs must be named, and no obstacle may be "
+           "free to move, since it has no mass");
+}
+
+VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<VibratingBody> bodies,
+                                       const std::vector<Bolt> &shanks)
+   : parts_(std::make_unique<Parts>()), reduction_(reduction)
+{
+   require(bodies.size() == reduction.bodies.size(), "vibration: ", bodies.size(),
+           " bodies have a mass, the reduction has ", reduction.bodies.size(),
+           ", must be as many (a half-plane has none)");
+   const ContactMotions contact = contact_motions(reduction);
+   Parts &parts = *parts_;
+   parts.bodies = std::move(bodies);
+   int own = 0; // coordinates that are none of the contact
+   for (std::size_t b = 0; b < parts.bodies.size(); ++b)
+   {
+      const AssembledBody &body = parts.bodies[b].body;
+      require(body.K.size() > 0 && parts.bodies[b].M.size() == body.K.size(),
+              "vibration: body ", b, " has a stiffness of ", body.K.size(),
+              " rows and a mass of ", parts.bodies[b].M.size(),
+              ", must be as many and more than none");
+      parts.thickness.push_back(reduction.bodies[b].thickness);
+      std::vector<bool> taken(body.K.size(), false);
+      for (int dof : body.fixed) { taken[dof] = true; }
+      for (int dof : contact_dofs_of(reduction.bodies[b]))
+      {
+         if (dof >= 0) { taken[dof] = true; }
+      }
+      own += static_cast<int>(std::count(taken.begin(), taken.end(), false) +
+                              static_cast<long>(body.blocks.size()));
+   }
+   const int columns = own + contact.coordinates;
+   parts.K = parts.M = RowMatrix(columns, columns);
+   int first = 0;
+   for (std::size_t b = 0; b < parts.bodies.size(); ++b)
+   {
+      parts.add_body(reduction, contact, b, first, columns);
+      const AssembledBody &body = parts.bodies[b].body;
+      std::vector<bool> taken(body.K.size(), false);
+      for (int dof : body.fixed) { taken[dof] = true; }
+      for (int dof : contact_dofs_of(reduction.bodies[b])) { taken[dof] = true; }
+      first += static_cast<int>(std::count(taken.begin(), taken.end(), false) +
+                                static_cast<long>(body.blocks.size()));
+   }
+   for (const Bolt &bolt : shanks) { parts.add_shank(reduction, bolt); }
+
+   std::vector<bool> rest(columns, true);
+   for (const int place : contact.relative)
+   {
+      parts.relative.push_back(place < 0 ? -1 : own + place);
+      if (place >= 0) { rest[own + place] = false; }
+   }
+   for (const int place : contact.tied) { rest[own + place] = false; }
+   // Components of the contact that supports hold have no motion.
+   const VectorXd diagonal = parts.M.diagonal();
+   for (int c = 0; c < columns; ++c)
+   {
+      if (rest[c] && diagonal[c] > 0) { parts.rest.push_back(c); }
+   }
+}
+
+VibratingStructure::~VibratingStructure() = default;
+
+double VibratingStructure::mass() const
+{
+   double sum = 0;
+   for (std::size_t b = 0; b < parts_->bodies.size(); ++b)
+   {
+      const VibratingBody &body = parts_->bodies[b];
+      // Along the last component: about an axis radial displacements are no common motion.
+      const std::vector<int> &component = body.body.places.component;
+      const int last = *std::max_element(component.begin(), component.end());
+      VectorXd r = VectorXd::Zero(body.M.size());
+      for (Index dof = 0; dof < r.size(); ++dof) { r[dof] = component[dof] == last; }
+      sum += parts_->thickness[b] * r.dot(body.M.view() * r);
+   }
+   return sum;
+}
+
+Modes VibratingStructure::modes(const GluedRows &glued, int count) const
+{
+   const Parts &parts = *parts_;
+   require(count >= 1, "modes: ", count, " are asked for, must be at least one");
+   require(glued.size() == parts.relative.size(), "modes: ", glued.size(),
+           " rows are glued or not, the problem has ", parts.relative.size(),
+           ", must be as many");
+   std::vector<int> keep = parts.rest;
+   for (std::size_t row = 0; row < glued.size(); ++row)
+   {
+      if (!glued[row] && parts.relative[row] >= 0) { keep.push_back(parts.relative[row]); }
+   }
+   // Small against the lowest frequencies of a body as long as it is wide, large against the
+   // round-off of the highest ones, so that the shifted stiffness is definite.
+   double stiff = 0, heavy = 0;
+   const VectorXd k = parts.K.diagonal(), m = parts.M.diagonal();
+   for (int c : keep)
+   {
+      stiff += k[c];
+      heavy += m[c];
+   }
+   const double shift = 1e-3 * stiff / heavy / static_cast<double>(keep.size());
+
+   Modes made;
+   std::vector<Index> elastic;
+   Eigenpairs pairs;
+   // Motions that nothing resists come first: ask for more until enough others are found.
+   for (int asked = count + 3;; asked += count + 3)
+   {
+      const int most = static_cast<int>(keep.size()) - 1;
+      pairs = lowest_eigenpairs(parts.K, parts.M, keep, std::min(asked, most), shift);
+      require(pairs.all, "modes: the Lanczos method did not find ", std::min(asked, most),
+              " eigenpairs, must find all: ask for fewer modes");
+      elastic.clear();
+      std::vector<Index> rigid;
+      for (Index j = 0; j < pairs.values.size(); ++j)
+      {
+         const VectorXd x = pairs.vectors.col(j);
+         (is_round_off(parts.K, x, pairs.values[j]) ? rigid : elastic).push_back(j);
+      }
+      made.rigid = static_cast<int>(rigid.size());
+      made.rigid_coordinates = pairs.vectors(Eigen::all, rigid);
+      if (static_cast<int>(elastic.size()) >= count) { break; }
+      require(asked < most, "modes: ", count, " are asked for, there are ", elastic.size(),
+              ", must be no more: ask for fewer");
+   }
+   elastic.resize(count);
+   made.coordinates = pairs.vectors(Eigen::all, elastic);
+   made.omega.resize(count);
+   made.residuals.resize(count);
+   const auto components =
+      static_cast<Index>(cattaneo::components(parts.bodies[0].body.places.formulation));
+   made.effective_mass = MatrixXd::Zero(count, components);
+   const bool axis = parts.bodies[0].body.places.formulation == Formulation::axisymmetric;
+   for (Index j = 0; j < count; ++j)
+   {
+      const VectorXd z = made.coordinates.col(j);
+      const double square = pairs.values[elastic[j]];
+      made.omega[j] = std::sqrt(square);
+      const VectorXd Kz = parts.K * z, Mz = parts.M * z;
+      const VectorXd force = Kz(keep), off = force - square * Mz(keep);
+      made.residuals[j] = off.norm() / force.norm();
+      made.shapes.emplace_back();
+      VectorXd moved = VectorXd::Zero(components);
+      for (std::size_t b = 0; b < parts.bodies.size(); ++b)
+      {
+         const VectorXd shape = parts.motions[b] * z,
+                        inertia = parts.thickness[b] * (parts.bodies[b].M.view() * shape);
+         const std::vector<int> &component = parts.bodies[b].body.places.component;
+         for (Index dof = 0; dof < shape.size(); ++dof)
+         {
+            moved[component[dof]] += inertia[dof];
+         }
+         made.shapes.back().push_back(shape);
+      }
+      made.effective_mass.row(j) = moved.array().square().matrix().transpose();
+      if (axis) { made.effective_mass(j, 0) = 0; }
+   }
+   return made;
+}
+
+ReducedProblem VibratingStructure::with_modes(const Modes &modes) const
+{
+   const Parts &parts = *parts_;
+   ReducedProblem problem = reduction_.problem;
+   const auto loads = static_cast<Index>(problem.patterns.size()), count = modes.omega.size();
+   require(problem.knows_loads(), "modes: the response H of the loads is not known, must be");
+   for (Index k = 0; k < count; ++k)
+   {
+      for (const LoadPattern &pattern : problem.patterns)
+      {
+         require(pattern.name != name_of_mode(k), "modes: a load is called '", pattern.name,
+                 "', which is the name of a mode: it must have another");
+      }
+   }
+   // 1. A motion that nothing resists must be one of all bodies together.
+   const Index slips = problem.slips(), n = problem.nodes();
+   for (Index k = 0; k < modes.rigid_coordinates.cols(); ++k)
+   {
+      const VectorXd z = modes.rigid_coordinates.col(k);
+      for (const int place : parts.relative)
+      {
+         require(place < 0 || std::abs(z[place]) <= 1e-6 * z.cwiseAbs().maxCoeff(),
+                 "modes: a body floats apart from the others at the state about which it "
+                 "vibrates, it must be pressed on one of them or be supported");
+      }
+   }
+   const Parts::Answer answer(parts, modes.rigid_coordinates);
+   parts.check(problem, answer);
+
+   // 2. Forces M φ with all contact nodes clamped: what these carry, and how far the bodies
+   // give way.
+   problem.H.conservativeResize(loads + count, loads + count);
+   problem.H.bottomRows(count).setZero();
+   problem.H.rightCols(count).setZero();
+   MatrixXd forces(parts.K.rows(), count), response = forces;
+   for (Index k = 0; k < count; ++k)
+   {
+      forces.col(k) = parts.M * modes.coordinates.col(k);
+      response.col(k) = answer.solve(forces.col(k));
+      const VectorXd reaction = parts.K * response.col(k) - forces.col(k);
+      LoadPattern made{name_of_mode(k), Control::force, VectorXd::Zero(slips),
+                       VectorXd::Zero(n)};
+      for (Index row = 0; row < slips + n; ++row)
+      {
+         const int place = parts.relative[row];
+         if (place < 0) { continue; }
+         (row < slips ? made.q[row] : made.p[row - slips]) = reaction[place];
+      }
+      problem.patterns.push_back(std::move(made));
+   }
+   const MatrixXd among = response.transpose() * forces;
+   problem.H.bottomRightCorner(count, count) = 0.5 * (among + among.transpose());
+
+   // 3. How far each other load moves along a mode while the contact is clamped.
+   const VectorXd v = VectorXd::Zero(slips), w = VectorXd::Zero(n);
+   for (Index l = 0; l < loads; ++l)
+   {
+      const VectorXd one = VectorXd::Unit(loads, l);
+      for (std::size_t b = 0; b < parts.bodies.size(); ++b)
+      {
+         const VectorXd x = reduction_.displacement(static_cast<int>(b), v, w, one);
+         const VectorXd Mx = parts.thickness[b] * (parts.bodies[b].M.view() * x);
+         for (Index k = 0; k < count; ++k)
+         {
+            problem.H(loads + k, l) += modes.shapes[k][b].dot(Mx);
+         }
+      }
+      const double sign = problem.patterns[l].control == Control::force ? 1 : -1;
+      for (Index k = 0; k < count; ++k)
+      {
+         problem.H(l, loads + k) = sign * problem.H(loads + k, l);
+      }
+   }
+   return problem;
+}
+
+ContactState VibratingStructure::with_modes(const Modes &modes, ContactState state) const
+{
+   const Index loads = state.multipliers.size(), count = modes.omega.size();
+   state.multipliers.conservativeResize(loads + count);
+   state.multipliers.tail(count).setZero();
+   for (Index k = 0; k < count && !state.loads.empty(); ++k)
+   {
+      state.loads.push_back(name_of_mode(k));
+   }
+   return state;
+}
+
+} // namespace cattaneo
