@@ -150,9 +150,9 @@ std::vector<int> ContactDofs::free() const
 
 ContactDofs contact_dofs(const Trace &trace, Formulation formulation, int dofs)
 {
-   require(trace.formulation == formulation, "condense: the contact line is ",
+   require(trace.formulation == formulation, "condense: the contact ", trace.kind(), " is ",
            name(trace.formulation), ", the body ", name(formulation),
-           ", must be the same (is it a line of this body?)");
+           ", must be the same (is it a ", trace.kind(), " of this body?)");
    const Eigen::Index n = trace.size();
    std::vector<int> contact(trace.dofs.cols() * n);
    for (Eigen::Index i = 0; i < n; ++i)
@@ -161,7 +161,8 @@ ContactDofs contact_dofs(const Trace &trace, Formulation formulation, int dofs)
       {
          const int dof = trace.dofs(i, c);
          require(dof >= 0 && dof < dofs, "condense: contact dof ", dof, " of node ", i,
-                 " of the line, must be from 0 to ", dofs - 1, " (is it a line of this body?)");
+                 " of the ", trace.kind(), ", must be from 0 to ", dofs - 1, " (is it a ",
+                 trace.kind(), " of this body?)");
          contact[c * n + i] = dof;
       }
    }

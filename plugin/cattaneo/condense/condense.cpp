@@ -220,8 +220,8 @@ void require_in_place(const Trace &trace, const DofPlaces &places)
          const int dof = trace.dofs(i, c);
          require(places.component[dof] == c && (places.place(dof) - at).norm() <= allowed,
                  "condense: dof ", dof, ", given as component ",
-                 component_name(trace.formulation, c), " of node ", i, " of the line, at ",
-                 trace.called(i), ", is component ",
+                 component_name(trace.formulation, c), " of node ", i, " of the ", trace.kind(),
+                 ", at ", trace.called(i), ", is component ",
                  component_name(trace.formulation, places.component[dof]), " of the node ",
                  places.called(dof), " of the body, both must be the same");
       }

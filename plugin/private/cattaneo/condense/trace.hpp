@@ -21,6 +21,8 @@ struct Trace
    Trace(const ContactSurface &surface); // NOLINT: and so is a surface
 
    Eigen::Index size() const { return dofs.rows(); }
+   /// "line" or "surface", in messages.
+   const char *kind() const { return formulation == Formulation::space ? "surface" : "line"; }
    /// The place of a node in messages.
    std::string called(Eigen::Index node) const
    {
