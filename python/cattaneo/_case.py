@@ -34,7 +34,8 @@ class Case:
     problem: ReducedProblem  #: with all bolts as springs
     state: ContactState  #: where the march of the program ended
     #: Points of the march, with its cycle. Multipliers of bolts with a `preload` are the pretensions that tightening
-    #: has given: march(problem, history) is the march of the case.
+    #: has given: march(problem, history) is the march of the case, unless other loads act before a bolt is tightened.
+    #: A warning says so: in `problem` the spring of that bolt is there from the beginning. Continue from `state` then.
     history: LoadHistory
     #: By name: the row of each bolt in the table of bolts at the end of the march, with `stiffness` and the `unit` of
     #: the multiplier, which is the preload or pretension.
@@ -146,6 +147,8 @@ def case(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, 
         at = pathlib.Path(folder)
         words = [*program, "--case", name, "--save", str(at / "problem.json"), "--json", str(at / "results.json")]
         words += ["--csv", str(at / "run"), "--save-state", str(at / "state.json")]
+        if set is not None and not hasattr(set, "items"):
+            raise TypeError(f"set is {set!r}, must be a dict, as {{'interfaces.face.friction': 0.5}}")
         for place, value in (set or {}).items():
             words += ["--set", f"{place}={_word(value)}"]
         for key, value in options.items():
@@ -167,9 +170,25 @@ def case(file: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, 
         bolts[row["bolt"]] = {**{key: value for key, value in row.items() if key != "bolt"}, **said_bolt}
     if done.returncode == 2:
         warnings.warn(f"case '{name}': {results.get('status')} {results.get('message', '')}", OutcomeWarning, stacklevel=2)
-    for sentence in results.get("warnings", []):
+    for sentence in [*results.get("warnings", []), *_of_late_bolts(problem, history, bolts)]:
         warnings.warn(f"case '{name}': {sentence}", stacklevel=2)
     return Case(name, problem, state, history, bolts, results)
+
+
+def _of_late_bolts(problem: ReducedProblem, history: LoadHistory, bolts: Mapping[str, Any]) -> list[str]:
+    """A sentence about bolts that are tightened after other loads."""
+    loads = [k for k, name in enumerate(problem.loads) if name not in bolts]
+    late = []
+    for name, bolt in bolts.items():
+        points = [int(word) for word in re.findall(r"\d+", str(bolt.get("tightened_at") or ""))]
+        if points and (history.multipliers[loads, : points[-1]] != 0).any():
+            late.append(f"'{name}' at point {points[-1]}")
+    if not late:
+        return []
+    return [
+        f"other loads act before a bolt is tightened ({', '.join(late)}): in `problem` its spring is there from the "
+        "beginning, so that march(problem, history) is not the march of the case, and must go on from `state`"
+    ]
 
 
 def _word(value: Any) -> str:

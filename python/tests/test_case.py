@@ -81,3 +81,23 @@ def test_comments_of_cases(tmp_path):
     (tmp_path / "case.json").write_text(text, encoding="utf-8")
     assert _case._read(str(tmp_path / "case.json")) == {"a": '//no /* comment */ " // here', "b": [1]}
     assert json.loads('{"a": 1}') == {"a": 1}
+
+
+@pytest.mark.filterwarnings("ignore:case:UserWarning")
+def test_a_bolt_that_is_tightened_after_other_loads(root):
+    """In the problem that is returned its spring acts from the beginning, which is said; from the state that is returned a march
+    goes on."""
+    file = root / "meshes" / "bolted_joint_drawing.json"
+    with pytest.warns(UserWarning, match=r"other loads act before a bolt is tightened \('bolt' at point 3\): .* must go on from `state`"):
+        late = cattaneo.case(file, history=["Q=0", "bolt=1", "Q=0.5", "bolt=1"], cycle_start=-1, cycles=1)
+    on = cattaneo.case(file, history=["Q=0", "bolt=1", "Q=0.5", "bolt=1", "Q=1"], cycle_start=-1, cycles=1)
+    then = {"bolt": late.state.multipliers[late.loads.index("bolt")], "Q": 1.0}
+    points = [dict(zip(late.loads, late.state.multipliers)), then]
+    history = cattaneo.LoadHistory.through(late.problem, [{}, *points], times=[0.0, late.state.time, late.state.time + 1])
+    report = cattaneo.march(late.problem, history, late.state)
+    assert report.state.p == pytest.approx(on.state.p, abs=1e-9 * on.state.p.max())
+
+
+def test_set_that_is_no_dict(root):
+    with pytest.raises(TypeError, match=r"set is 'order=1', must be a dict"):
+        cattaneo.case(root / "meshes" / "rounded_punch.json", set="order=1")
