@@ -38,8 +38,10 @@ struct Method
    bool thorough; ///< left out if a quick answer is requested
 };
 
-/// Weak springs: free bodies under loads that nearly balance each other, which tip or roll to
-/// their answer (tests/stress/tipping_test).
+/// Weak springs: free bodies under loads that nearly balance each other, and, with two
+/// tangents, free bodies with stiffness like a Hilbert matrix. Bodies that tip or roll to their
+/// answer (tests/stress/tipping_test) seldom need them: Lemke's method and the active set find
+/// most.
 constexpr Method springs{"weak springs", weak_springs, true};
 
 /// In the order in which they are tried, with one tangent or none:

@@ -218,8 +218,9 @@ void MarchRun::bisect_last_equilibrium(double failed, IncrementReport failure)
          continue;
       }
       reached = middle;
-      // So close to the limit few nodes carry all forces, which lose digits. There is an
-      // equilibrium at this load, but the state is not returned.
+      // So close to the limit few nodes carry all forces, which may lose digits. Then there is
+      // an equilibrium at this load, but its state is no increment of the march. All others are
+      // increments, with a row of the history each.
       const IncrementReport &found = trial.increment;
       const double stated =
          std::max({found.residual_normal, found.residual_tangential, found.round_off});
