@@ -26,15 +26,15 @@ PROOFS = {"2.9": "./test -R 'Measures|EdgeCrack'", "2.10": "./test -R SlipEnergy
 INVENTED = "The tests shown are *invented*: those of the thesis are in papers whose numbers its text doesn't give. Put your own in such a file. "
 
 CHAPTER = Chapter(2, "Correlation of fretting fatigue tests", """
-Two bodies of the same material touch over a width 2a that grows with the load, and are sheared: near the edges they slip to and fro, and there cracks begin. Close to an edge all such
-contacts look alike. The pressure rises as p = K_N √t with the distance t from the edge, and the shear would be q = K_T/√t if nothing slipped: two numbers hold whatever shape and loads
-have to say. The slip zone has the width d = 2 K_T/(f K_N).
+Two bodies of the same material touch over a width 2a that grows with the load, and are sheared: near the edges they slip to and fro, and there cracks begin. Close to an edge all such contacts are
+alike. The pressure rises as p = K_N √t with the distance t from the edge, and the shear would be q = K_T/√t if nothing slipped: these two numbers contain all effects of shape and loads. The slip zone
+has the width d = 2 K_T/(f K_N).
 
 From K_N, K_T and the friction coefficient f follow, in closed form: the stresses, and whether the slip zone yields (2.2 to 2.4); the stress at the edge, the classical measure of fatigue (2.5);
 the stress intensity of a crack that grows from the edge, and with it the verdict of Kitagawa and Takahashi: does it go on growing when it has the critical length a0, or
 does it stop (2.6 to 2.8)? The range of K_T as a mode II intensity (2.9), and the frictional energy of a cycle (2.10).
 
-Several formulas of the thesis are misprinted or wrong; each one used here was checked against an independent numerical route. Lengths are in d, stresses in K_N √d, unless said.
+Several formulas of the thesis are misprinted or wrong; each one used here was checked against an independent numerical method. Lengths are in d, stresses in K_N √d, unless said.
 """)
 figure = CHAPTER.figure
 
@@ -161,19 +161,19 @@ def planes(*all_runs):
 
 
 CHAPTER.sketch("2.1", "The contact and its edge", """
-A pad is pressed by P, sheared by Q, and the specimen below is pulled in step (σ). Zoomed in on the trailing edge: the pressure, the singular shear of full adhesion, and the shear
+A pad is pressed by P, sheared by Q, and the specimen below is pulled in phase (σ). Zoomed in on the trailing edge: the pressure, the singular shear of full adhesion, and the shear
 with slip over the length d.""", sketches.edge)
 for number, friction in (("2.2a", 0.8), ("2.2b", 0.6)):
     figure(number, f"Equivalent stress near the edge, f = {friction}", f"fretting --friction {friction}", """
 Von Mises' stress over K_N √d below the surface; t > 0 is under the pad, 0 < t < d slips.""", fields)
 figure("2.3", "Equivalent stress along the surface", EDGE, """
-It is nearly constant over the slip zone, so that this yields almost at once: the smaller f, the less so.""", lambda run: f.panels((run, "surface", {"title": "", "rename": plain})), wrong="""
+It is nearly constant over the slip zone, so that the whole zone yields almost at once. This holds less well for small f.""", lambda run: f.panels((run, "surface", {"title": "", "rename": plain})), wrong="""
 The thesis' (2.12) has 2 for √2, its (2.14) is √2 too large, and (2.17) is three times the usual invariant; the curves are of the corrected field.""", proof=FIELD)
 figure("2.4", "Load at which the slip zone yields", [*(command for command, _ in TESTS.values()), NICKEL], INVENTED + """
 Lower curve: the load at which some point yields, upper one: the whole slip zone, 1/f whatever ν. They differ for little friction only.""", spots)
 figure("2.4 (Hertz)", "Where a Hertz contact is severest", EDGE, """
-The remark before figure 2.3: with little friction the severest point lies below the surface, with more at the edge. The friction from which on it is at the surface, for a Hertz contact
-sheared by Q: about 0.26 if it slides, more in partial slip.""", lambda run: f.panels((run, "transition", {"title": ""})), rows="severest")
+The remark before figure 2.3: with little friction the severest point lies below the surface, with more at the edge. For a Hertz contact sheared by Q it is at the surface if f is at least about 0.26
+in full slip, and more in partial slip.""", lambda run: f.panels((run, "transition", {"title": ""})), rows="severest")
 figure("Table 2.1", "Materials", "fretting --material Al", "The records that the program ships; the thesis' values, with their sources in its bibliography.", lambda run: materials())
 for letter, (command, words) in TESTS.items():
     figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge, √(8 f K_N K_T) at peak load. Hollow: not broken.",
@@ -181,13 +181,13 @@ for letter, (command, words) in TESTS.items():
 The thesis has half of this stress, √(2 f K_N K_T) = f K_N √d: at the edge σ_xx is 2 f K_N √d, and the 2 is left out. The misprint in (2.12), 2 for √2, is another fault, which would make the stress √2 too large.""",
            proof=FIELD)
 figure("2.6", "Stress intensity of a crack at the edge", [EDGE, *CRITICAL], """
-Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks. Red: what a crack must be driven by to grow,
-after Kitagawa and Takahashi, σ_fl √(πc) for short ones and ΔK_th for long ones, which meet at the length a0. It is drawn for the edge with f = 0.8 and X = 0.2 whose trajectory passes through the
-corner A: a little less K_T, and the crack stops. (In these axes the boundary moves with the loads and the material; figure 2.7 has all of its critical cases.)""", kitagawa,
+Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks. Red: the intensity that a crack needs to grow, after
+Kitagawa and Takahashi, σ_fl √(πc) for short ones and ΔK_th for long ones, which meet at the length a0. It is drawn for the edge with f = 0.8 and X = 0.2 whose trajectory passes through the corner A:
+with a slightly smaller K_T the crack stops. (In these axes the boundary moves with the loads and the material; figure 2.7 has all of its critical cases.)""", kitagawa,
        stated=[(f"K_I,max/ΔK_th at A, f = {friction:g}", 1, 2e-6, None, lambda *all_runs, k=k: drive(all_runs[1 + k])) for k, friction in ((0, 0.8), (1, 0.3))])
 figure("2.6 (R)", "Other load ratios", EDGE, """
 The part of the cycle of K_I in which the crack is open, for loads that go between R times their peak and the peak. Up to R = 0.3 nothing changes, since the crack is shut at the other end anyway: the weak
-dependence on R that the thesis reports. Above that less of the range is left to short cracks.""", lambda run: f.panels((run, "trajectory_ratios", {"title": ""})))
+dependence on R that the thesis reports. Above that, short cracks are open in a smaller part of the range.""", lambda run: f.panels((run, "trajectory_ratios", {"title": ""})))
 figure("2.7", "Threshold of fretting fatigue", [EDGE, *CRITICAL], """
 Above its curve a crack still grows when it has the critical length a0 = (ΔK_th/σ_fl)²/π; below it stops. One diagram for all contacts and materials.""",
        lambda run, *_: f.panels((run, "threshold", {"title": "", "only": lambda s: s != "design", "rename": plain})),
@@ -196,7 +196,7 @@ Above its curve a crack still grows when it has the critical length a0 = (ΔK_th
 The thesis doesn't say which part of K_I's cycle counts. Here it is the part in which the crack is open; `--criterion range` and `half-range` are the others.""", proof="fretting --criterion range")
 for number, panel, title, text in (
         ("2.8", "threshold_tests", "Tests and threshold", "Filled: broken. The criterion says that those above the curve break and those below last. "
-         "Invented tests needn't obey it: those of (a) do, of the broken ones of (b) three in four lie below the curve, of (c) all."),
+         "Invented tests needn't obey it. Those of (a) do. Three in four of the broken tests of (b) lie below the curve, and all of (c)."),
         ("2.9", "mode_two", "Range of K_T against life", "The line is the mode II threshold, 0.8 ΔK_th in K_II = √(2π) K_T."),
         ("2.10", "energy", "Frictional energy against life", "Largest energy per area and cycle, 4√3 K_T²/E* for reversed loads, a quarter into the slip zone. No measurement of the material says how much is endured; as in the thesis the line is put where "
          "it divides broken tests from lasting ones best: fewest on its wrong side, and in the middle of the gap.")):
@@ -205,30 +205,31 @@ for number, panel, title, text in (
     for letter, (command, words) in TESTS.items():
         if number + letter == "2.9c":
             figure("2.9c", f"{title}: {words}", [command, REDUCED], INVENTED + text + """ The tests of the thesis had R = 0.5 to 0.6 by a steady tension, at which thresholds are lower than at the -1
-of Table 2.1. It draws a reduced line without saying how far it reduces. Right: the same tests at R = 0.5, with the most that a reduction is known to be, to the same largest K_II in the cycle; the truth lies between the
-two dashed lines.""", reduced, wrong=wrong, proof=PROOFS[number])
+of Table 2.1. It draws a reduced line without saying by how much. Right: the same tests at R = 0.5, with the largest reduction that is known, to the same largest K_II in the cycle. The true line lies
+between the two dashed lines.""", reduced, wrong=wrong, proof=PROOFS[number])
         else:
             against = number == "2.8" and letter != "a"  # the numbers of the real tests are in no text at hand
             figure(number + letter, f"{title}: {words}" + (" (INVENTED tests, which contradict the criterion)" if against else ""), command,
                    ("*These tests are invented and contradict the criterion: they say nothing for or against it.* " if against else "") + INVENTED + text,
                    tests(panel), wrong=wrong, proof=PROOFS.get(number, ""))
 figure("2.5 (together)", "All tests in one figure each", TOGETHER, INVENTED + """
-Figures 2.5 and 2.8 to 2.10 with all materials and pads in one, as the thesis has some of its own: the records say material, pad and friction of each test. Limits are of each material, thresholds of each
-friction. The classical stress (first) scatters over materials and pads, which the diagram of 2.7 (second) brings onto one pair of axes.""",
+Figures 2.5 and 2.8 to 2.10 with all materials and pads in one, as the thesis has some of its own: the records have material, pad and friction of each test. There is one limit for each material, and
+one threshold for each friction. The classical stress (first) scatters over materials and pads, which the diagram of 2.7 (second) brings onto one pair of axes.""",
        together)
 figure("2.10 (total)", "Total frictional energy against life", [command for command, _ in TESTS.values()], INVENTED + """
 The energy of the whole slip zone, (8π/3) K_T³/(f K_N E*) a cycle for reversed loads; the thesis says that it orders the tests as the largest density does.""",
        lambda *all_runs: f.panels(*((run, "energy_all", {"title": words}) for run, (_, words) in zip(all_runs, TESTS.values()))))
-figure("2.10 (levels)", "Which measure tells broken tests from lasting ones", [*(command for command, _ in TESTS.values()), TOGETHER], INVENTED + """
-The thesis compares its measures by eye. Counted here: tests on the wrong side of the level that divides them best. One series alone is divided by nearly any measure that grows with the load; the test of a measure is materials and
-pads together (last column).""", levels)
+figure("2.10 (levels)", "Which measure separates broken tests from lasting ones", [*(command for command, _ in TESTS.values()), TOGETHER], INVENTED + """
+The thesis compares its measures by eye. Counted here: tests on the wrong side of the level that divides them best. Nearly any measure that grows with the load divides a single series. A measure is
+tested only by all materials and pads together (last column).""", levels)
 figure("2.10 (planes)", "Critical planes beside the asymptotic criteria", PLANES, """
 The thesis hopes that the asymptotes serve conventional multiaxial criteria too. Here they stand beside each other for one contact: a cylinder of aluminium alloy, R = 100 mm, pressed by 400 N/mm and sheared by 50 N/mm to and fro, solved by finite
-elements. Findley's criterion, that of Smith, Watson and Topper, and that of Fatemi and Socie, each on its critical plane and of the stresses of the whole steady cycle, averaged over a depth below the surface; each over
-its value in a plain specimen at the fatigue limit. Stresses fall so steeply that the depth decides the verdict (right; bars are of the mesh), which the asymptotic measures don't need: they have a length of the
-material, a0 = 0.09 mm here. The range of the stress at the edge asks for failure, the crack that starts there stops, and K_II is at its threshold. Any other solved body: `docs/python.md`.""", planes)
+elements. Findley's criterion, that of Smith, Watson and Topper, and that of Fatemi and Socie, each on its critical plane, from the stresses of the whole steady cycle, averaged over a depth below the
+surface. Each is divided by its value in a plain specimen at the fatigue limit. Stresses fall so steeply that the depth decides the verdict (right; bars show the error of the mesh). The asymptotic
+measures don't need a depth: they have a length of the material, a0 = 0.09 mm here. By the range of the stress at the edge the specimen fails, by K_I the crack that starts there stops, and K_II is at
+its threshold. Any other solved body: `docs/python.md`.""", planes)
 figure("A", "A flat pad with round edges", "fretting --pad flat-rounded --radius 3 --flat 3 --normal-load 1000 --shear-load 20 --bulk 20 --material Ti6Al4V", """
-Appendix A: pressure of a pad with a flat of half-width b and edges of radius R; the edge alone, of a flat without end (A.1); and what is left of both very close to the edge, K_N √t.""",
+Appendix A: pressure of a pad with a flat of half-width b and edges of radius R; the edge alone, of a flat without end (A.1); and the limit of both very close to the edge, K_N √t.""",
        lambda run: f.panels((run, "profile", {"title": "whole"}), (run, "profile", {"title": "at the edge", "limits_x": "-1,-0.94"})), wrong="""
 (A.2) has a minus sign too many, and the thesis has one symbol for two constants: far from the edge p = K_P/√x, at it p = K_N √x with K_N = 3 K_P/a_r.""",
        proof="./test -R Calibration")

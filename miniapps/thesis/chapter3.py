@@ -1,4 +1,4 @@
-"""Chapter 3: static reduction, and three contacts that try it."""
+"""Chapter 3: static reduction, and three contacts that test it."""
 
 import figures as f
 import sketches
@@ -10,16 +10,16 @@ PARABOLA = 'hertz -body block -ratio 0.8 -shear none -load-levels "0.1 0.25 0.5 
 
 CHAPTER = Chapter(3, "Static reduction for frictional contact", """
 A finite element model has thousands of unknowns, and only those of the contact nodes take part in contact. All others follow from them linearly: they are
-eliminated once, exactly, and what is left is a dense relation between the forces of the contact nodes (shear q, pressure p) and the relative displacements there (slip v, opening w),
+eliminated once, exactly, and the result is a dense relation between the forces of the contact nodes (shear q, pressure p) and the relative displacements there (slip v, opening w),
 q = A v + Bᵀ w + q^w(t), p = B v + C w + p^w(t), where q^w and p^w are the forces that the loads would cause if nothing moved. For two bodies the
 relations are added through their flexibilities. Contact is *coupled* unless B = 0.
 
 Each node is in one of four states. A node that *sticks* has w + g = 0, v constant and |q| ≤ f p. In *separation* p = q = 0 and w + g > 0. In *forward slip* q = -f p and v grows, in *backward slip* q = f p and v falls.
-Here g is the initial gap. The loads are followed in increments, and in each of them states are sought that satisfy all of that to round-off. There are no contact elements, and no stiffness of
-contact or of stick to choose. The thesis goes from node to node until nothing changes (Gauss-Seidel); here whole sets of states change at a time (an active set), with a path by single nodes
-to fall back on.
+Here g is the initial gap. The loads are followed in increments, and in each of them states are sought that satisfy all these conditions to round-off. There are no contact elements, and no stiffness
+of contact or of stick to choose. The thesis goes from node to node until nothing changes (Gauss-Seidel); here whole sets of states change at a time (an active set), and if that fails, a path changes
+single nodes.
 
-Three problems try it. Units: a = P0 = E' = 1 (the parabola: the half-width b and the largest pressure p0 of Hertz).
+Three problems test it. Units: a = P0 = E' = 1 (the parabola: the half-width b and the largest pressure p0 of Hertz).
 """)
 figure = CHAPTER.figure
 
@@ -80,8 +80,8 @@ def flow():
 CHAPTER.sketch("3.1", "Signs of forces", """
 Shear q and pressure p of a contact node, on each body in its own frame: x along the contact, y into the body. The forces on both are then equal.""", sketches.signs)
 CHAPTER.sketch("3.2", "Signs of displacements", "In the same frames the displacements of both bodies add up: slip v = v1 + v2, opening w = w1 + w2.", lambda: sketches.signs(True))
-CHAPTER.sketch("3.3", "Gap of a contact node", "An initial gap g(s) is measured between nodes that face each other; contact is where w + g = 0.", sketches.gap)
-figure("3.4a", "Case I: a block on a rigid plane", f"{RIGID} --check", "The block with its loads, and its contact nodes, as the program is given them.",
+CHAPTER.sketch("3.3", "Gap of a contact node", "An initial gap g(s) is measured between nodes that face each other; nodes with w + g = 0 are in contact.", sketches.gap)
+figure("3.4a", "Case I: a block on a rigid plane", f"{RIGID} --check", "The block with its loads and its contact nodes, as the program gets them.",
        lambda run: f.panels((run, "scene", {"title": ""}), height=4.2))
 figure("3.4b", "Case I: the mesh", f"{RIGID} --check", "The finite elements of the block, finer toward the corners.",
        lambda run: f.panels((run, "mesh", {"title": ""}), height=4.2))
@@ -90,7 +90,7 @@ CHAPTER.sketch("3.5", "Load history", "P is applied and held, then Q grows; it a
 figure("3.6", "Case I: slip under P alone", RIGID, "Friction f = 0.2. The slip is antisymmetric; the middle sticks.",
        lambda run: pressed(run, "slip", alone), rows="P only")
 figure("3.7", "Case I: slip under P and Q", RIGID, """
-As soon as Q acts the trailing (left) side, whose slip it would reverse, sticks with the slip it has; the slip zone of the leading side grows inward.""",
+As soon as Q acts the trailing (left) side, whose slip it would reverse, sticks with its present slip. The slip zone of the leading side grows inward.""",
        lambda run: pressed(run, "slip", None), rows="right end")
 figure("3.8", "Case II: slip under P alone", SIMILAR, "The same block on a half-plane of its own material, f = 0.4: much less slip.",
        lambda run: pressed(run, "slip", alone), rows="P only")
@@ -99,17 +99,17 @@ figure("3.9", "Case II: slip under P and Q", SIMILAR, "The block on the half-pla
 CHAPTER.sketch("3.10a", "Case III: a parabolic punch", "The face of the block is a parabola: contact grows with the load.", lambda: sketches.gap(load=True))
 figure("3.10b", "Case III: the mesh", f"{PARABOLA} --check", "The finite elements of the punch. The half-plane has none.",
        lambda run: f.panels((run, "mesh", {"title": ""}), height=4.2))
-figure("3.11", "Case III: gap during loading", PARABOLA, "The distance of facing nodes as the load grows to that of b = 0.8 a. Where it is zero there is contact.",
+figure("3.11", "Case III: gap during loading", PARABOLA, "The distance of facing nodes while the load grows to that of b = 0.8 a. Where the distance is zero, there is contact.",
        lambda run: f.panels((run, "gaps", {"title": "", "limits_y": "-0.02,"})), rows="half-width")
 figure("3.12", "Case III: pressure during loading", [PARABOLA, "hertz"], """
-Pressures at the same loads. On a square block the contact is not Hertz's: the block is no half-plane. Where both bodies are half-planes (second row of peak pressure) it is, to
+Pressures at the same loads. On a square block the contact is not that of Hertz, because the block is not a half-plane. Where both bodies are half-planes (second row of peak pressure) it is, to
 five digits.""", lambda run, _: f.panels((run, "pressures", {"title": ""})), rows="peak|half-width")
 LAWS = [f'march --reduced problems/punch_on_half_plane.json --history "P=0; P=1; Q=0.25; Q=-0.25" {law}'
         for law in ("--friction 0.4", "--strength '0.75 0.3 1 0.3'", "--strength '1 0.4' --strength-backward '1 0.28'")]
 figure("3.9 (laws)", "Other laws of friction", LAWS, """
-The method leaves the law of friction to its user, says the thesis. The square punch of 41 nodes under P and Q = −0.25 P after Q = 0.25 P, with Coulomb's law (f = 0.4); with a shear strength that ends at 0.3
-P/a, as that of a soft coating does, so that the corners bear no more; and with f = 0.4 forward and 0.28 backward. Shear (dashed) is over the steepest slope of the law, so that Coulomb's is met where both
-curves meet.""", lambda *runs: f.panels(*((run, "tractions", {"title": title, "inside": "0.04",
+The method leaves the law of friction to its user, says the thesis. The square punch of 41 nodes under P and Q = −0.25 P after Q = 0.25 P, with Coulomb's law (f = 0.4); with a shear strength of at
+most 0.3 P/a, like that of a soft coating, which limits the shear at the corners; and with f = 0.4 forward and 0.28 backward. Shear (dashed) is divided by the steepest slope of the law, so that
+Coulomb's limit is reached where both curves meet.""", lambda *runs: f.panels(*((run, "tractions", {"title": title, "inside": "0.04",
                                                                              "rename": lambda s: s.replace("time 3", "pressure")}) for run, title in zip(
     runs, ("Coulomb", "Shear strength of 0.3 P/a", "Forward 0.4, backward 0.28"))), columns=2))
 figure("3.7 (times)", "What the reduction saves", [RIGID, SIMILAR, PARABOLA], """
@@ -117,7 +117,7 @@ The thesis counts seconds of its three cases in a commercial program and by stat
 increments. Other machines have other times; the ratio is what counts.""", times)
 figure("3.9 (dislocations)", "Dislocation solutions", 'square_punch -obstacle half-plane -nodes 401 --shear none -dislocation "0 0.7"', """
 A by-product that the thesis names: tractions of a glide dislocation, a jump of the slip by 1 at a place of the contact with everything else bonded. They are A v and B v. Close to the jump the
-shear is that of an infinite body, E'/4πr (dashed); farther away the block's sides are felt, and there is pressure too.""", lambda run: f.panels((run, "dislocations", {"title": ""})))
+shear is that of an infinite body, E'/4πr (dashed); farther away the sides of the block have an influence, and there is pressure too.""", lambda run: f.panels((run, "dislocations", {"title": ""})))
 CHAPTER.sketch("B", "A stiffness matrix from another program", """
 The thesis draws a body in ABAQUS, numbers the nodes of its contact one after another, and asks for the stiffness matrix as a file of its own (`*MATRIX GENERATE, STIFFNESS`). Such files are read as they are, with the deck beside them
 that has the places of the nodes; nodes need no order of their own. Matrices of CalculiX, MatrixMarket and NumPy do as well: `docs/exchange.md`. A case that stands on one: `./run contact --case meshes/calculix/laps.json`.""", matrix_mesh)

@@ -9,19 +9,17 @@ MARCHES = "shakedown -find friction -march"
 MAP = "shakedown -find load -map -loads-over-friction -transposed -lower"
 
 CHAPTER = Chapter(4, "Shakedown limit algorithms", """
-A square block, |x| < a, stands on a half-plane of the same material. A force P0 presses it, then a shear force goes to
-and fro between Qmax and Qmin. *Shakedown* means that slip dies out after some cycles: it has locked in tractions
-(residual tractions) with which friction holds the contact for ever after. Which friction coefficient f does that take for a
-load factor λ = Qmax/P0 and a reversal R = Qmin/Qmax, or which load does a given f bear?
+A square block, |x| < a, stands on a half-plane of the same material. A force P0 presses it, then a shear force varies between Qmax and Qmin. *Shakedown* means that slip dies out after some cycles: it
+has left residual tractions with which friction holds the contact in all later cycles. Which friction coefficient f is needed for this at a load factor λ = Qmax/P0 and a reversal R = Qmin/Qmax, or up
+to which load does it happen for a given f?
 
 The contact is *coupled*: shear changes the pressure, because block and half-plane have different shapes. The thesis has three methods.
-*Method 1* lets only the shear redistribute, at each point on its own. *Method 2* takes one residual shear that
-method 1 allows and counts in the pressure that comes with it. The *exact* method seeks the slip v, constant in time, whose residual shear
-A v and pressure B v allow the most; here it is solved with a proof on either side, as an optimisation whose dual bounds it.
-By Melan's theorem, which Klarbring and Barber brought to friction, no more is possible; for coupled contacts less may come,
-depending on where the march starts. All limits hold for a contact that stays closed everywhere.
+*Method 1* lets only the shear redistribute, at each point on its own. *Method 2* takes one residual shear that method 1 allows, and adds the pressure that it causes. The *exact* method seeks the slip
+v, constant in time, whose residual shear A v and pressure B v allow the largest load. Here it is solved as an optimisation whose dual proves a bound, so that there are bounds on both sides. By
+Melan's theorem, which Klarbring and Barber brought to friction, no larger load is possible. For coupled contacts a march may need a smaller load, depending on its start. All limits hold for a contact
+that stays closed everywhere.
 
-Units: a = P0 = E' = 1, E' = E/(1-ν²). Shear is drawn positive where Q is, as the block's on the half-plane; the program's own q is the opposite, so that axes say -q.
+Units: a = P0 = E' = 1, E' = E/(1-ν²). Shear is drawn positive in the direction of Q, as that of the block on the half-plane. The program's own q has the opposite sign, so axes are labelled -q.
 """)
 figure = CHAPTER.figure
 
@@ -64,7 +62,7 @@ def overlaid(first, second, names, x, y, limits):
 
 
 def limits(run):
-    """Largest loads in the thesis' axes, and its own point."""
+    """Largest loads in the thesis' axes, and the point of the thesis."""
     sheet, (axes,) = f.sheet(1, height=3.9)
     lines = {f"R = {R:g}": (run.column("map", "friction", reversal=R), run.column("map", "load_limit", reversal=R)) for R in (-1, -0.75, -0.5, 0)}
     f.curves(axes, lines, "friction coefficient f", "λ = Qmax/P0")
@@ -77,41 +75,43 @@ def limits(run):
 
 
 def decay(run, first, last):
-    """Mean of the loss of a cycle over that of the one before, from no slip."""
+    """Mean ratio of the losses of successive cycles, from no slip."""
     loss = run["marches.0.dissipation"]
     return (loss[last - 1] / loss[first - 1]) ** (1 / (last - first))
 
 
 CHAPTER.sketch("4.1", "The block, its half-plane and their loads", """
 P0 acts on the top as a uniform pressure. Q acts there as a uniform shear, together with a pressure that varies linearly so that
-its moment balances that of Q about the contact: how exactly the loads come in then hardly matters to the contact.""",
+its moment balances that of Q about the contact. The exact distribution of the loads then hardly matters for the contact.""",
                lambda: sketches.block_sheet())
 CHAPTER.sketch("4.2", "Monotonic loading", "First P is applied and held, then Q grows.",
                lambda: sketches.histories({"P": ([0, 1, 3], [0, 1, 1]), "Q": ([0, 1, 3], [0, 0, 0.8])}))
 
-figure("4.3", "What the contact does under monotonic shear", "shakedown -find friction -adhesion-map", """
+figure("4.3", "The contact under monotonic shear", "shakedown -find friction -adhesion-map", """
 Friction coefficients and shear loads at which everything adheres, slip starts at the corner or inside, or the block slides.
 Up to λ = 0.28 the corner decides: its tractions are singular and have the ratio 0.5431 whatever the load. Then the
 largest ratio jumps inside, to x = 0.63 a, and rises quickly.""", adhesion, rows="full adhesion|corner|x/a where")
 figure("4.4", "Tractions of the monolith", STEPS, """
 Block and half-plane bonded to each other: pressure p and shear q under P alone, over the mean pressure p0 = P0/2a, and under
-Q alone, over the mean shear q0 = Qmax/2a. That P gives shear and Q pressure is the coupling.""", monolith, rows="^[pq]̃_")
+Q alone, over the mean shear q0 = Qmax/2a. The shear under P and the pressure under Q are due to the coupling.""", monolith, rows="^[pq]̃_")
 figure("4.5", "Ratio of shear to pressure in the monolith", STEPS, """
-The ratio that friction has to bear, for growing Q. All curves go to the same ratio at the corner, 0.543 (the nodes nearest to it, which do not know that, are left out), and the maximum moves inside.""",
+The ratio that friction must provide, for growing Q. All curves tend to the same ratio at the corner, 0.543 (the nodes nearest to the corner do not resolve it and are left out), and the maximum moves
+inside.""",
        lambda run: f.panels((run, "traction_ratio", {"limits_y": "-1,1.8", "title": ""})), rows="full adhesion|x/a of")
 CHAPTER.sketch("4.6", "Cyclic loading", "P is held; Q goes between Qmax (point A) and Qmin (point B).",
                lambda: sketches.histories({"P": ([0, 1, 8], [0, 1, 1]), "Q": ([0, 1, 2, 4, 6, 8], [0, 0, 0.8, -0.4, 0.8, -0.4])},
                                           points=[(2, 0.8, "A"), (4, -0.4, "B")]))
 figure("4.7", "Shear and friction at Qmax", STEPS, """
-Tractions of the monolith at λ = 0.8, and what friction holds with the f of method 1. Where q is above f p the contact slips;
+Tractions of the monolith at λ = 0.8, and the friction limit with the f of method 1. Where q is above f p the contact slips;
 a residual shear that is negative there can hold it.""",
        lambda run: f.panels((run, "at_largest", {"title": ""})), rows="method 1, f|q > ", wrong="""
-The thesis reads -0.25 and 0.88 off its figure, for its f = 0.83. That f moves the ends by a hundredth of a and less (second pair of rows); where the rest of the difference comes from is not known. The curves cross at a small angle.""",
+The thesis reads -0.25 and 0.88 off its figure, for its f = 0.83. That f moves the ends by at most a hundredth of a (second pair of rows). The rest of the difference is not explained. The curves cross
+at a small angle.""",
        proof="shakedown -find friction -tractions")
 figure("4.8", "Shear and friction at Qmin", STEPS, "The same at λ = -0.4: here friction holds everywhere.",
        lambda run: f.panels((run, "at_smallest", {"title": ""})))
 figure("4.9", "Room for residual shear, method 1", STEPS, """
-What each extreme of the cycle leaves room for, -f p - q ≤ r ≤ f p - q. The residual shear has to lie between the higher one of
+The residual shear that each extreme of the cycle allows, -f p - q ≤ r ≤ f p - q. The residual shear has to lie between the higher one of
 the two lower curves and the lower one of the upper curves; these touch at one point, which decides f.""",
        lambda run: f.panels((run, "bounds", {"title": ""})), rows="method 1, f")
 figure("4.10", "A residual shear without resultant", STEPS, """
@@ -119,43 +119,41 @@ Any curve in the band is allowed to method 1. A residual shear must balance itse
 range at every node and no resultant.""", lambda run: f.panels((run, "method2", {"title": ""})))
 figure("4.11", "The slip that leaves it", STEPS, "Slip v with A v = r for the residual shear of figure 4.10; a rigid slip may be added.",
        lambda run: f.panels((run, "method2_slip", {"title": ""})))
-figure("4.12", "The pressure that comes with it", STEPS, "The change of pressure B v of that slip. Its resultant is zero too.",
+figure("4.12", "The pressure that it causes", STEPS, "The change of pressure B v of that slip. Its resultant is zero too.",
        lambda run: f.panels((run, "method2_residual", {"title": "", "limits_y": "-0.3,0.3"})))
 figure("4.13", "Room for residual shear with its pressure, f of method 1", STEPS, """
 The curves of figure 4.9 with the pressure of figure 4.12. In the thesis lower and upper curves now overlap, so that f must rise; on a
-converged mesh, with the right coupling, they part: f may fall.""", lambda run: f.panels((run, "bounds_coupled", {"title": ""})))
+converged mesh, with the right coupling, they separate: f may be smaller.""", lambda run: f.panels((run, "bounds_coupled", {"title": ""})))
 figure("4.14", "Room for residual shear with its pressure, f of method 2", STEPS, """
-The same at the f of method 2, where they touch. Which residual shear of the band is taken matters: the table has the least and the most
-over all of them.""", lambda run: f.panels((run, "bounds_method2", {"title": ""})), rows="method 2", wrong="""
-The thesis finds 0.87, above the exact limit and above every choice there is (0.783 to 0.806), and concludes that method 2 underestimates
-what the contact bears. Its order of the methods is the mirror of the right one. Its equations (3.25) and (4.10) disagree about which coupling block is B and
-which its transpose; with the transposed one the exact limit is its 0.85. Where its 0.87 comes from is not known.""",
+The same at the f of method 2, where they touch. The result depends on which residual shear of the band is taken: the table has the smallest and the largest value of all.""", lambda run: f.panels((run, "bounds_method2", {"title": ""})), rows="method 2", wrong="""
+The thesis finds 0.87, above the exact limit and above all possible choices (0.783 to 0.806), and concludes that method 2 underestimates the load that the contact carries. Its order of the methods is
+the reverse of the correct one. Its equations (3.25) and (4.10) disagree about which coupling block is B and which its transpose; with the transposed one the exact limit is its 0.85. The origin of its
+0.87 is not known.""",
        proof="shakedown -find friction -transposed")
 figure("4.15", "Optimal slip", STEPS, """
-The slip that allows the most, beside the one of method 2. The optimum fixes it only where the limit is decided; elsewhere there is room.""",
+The slip that allows the most, beside the one of method 2. The optimum determines the slip only where the limit is decided; elsewhere it may vary.""",
        lambda run: overlaid(run.series("optimal_slip"), run.series("method2_slip"), [""], "x/a", "v E'/P", None),
        rows="exact limit, f$")
 figure("4.16", "Residual tractions", STEPS, "Residual shear and pressure of the two slips of figure 4.15.",
        lambda run: overlaid(run.series("residual"), run.series("method2_residual"), ["shear", "pressure"], "x/a", "-a q/P0, a p/P0", (-0.5, 0.5)))
 figure("4.17", "Room for residual shear with the optimal pressures", STEPS, """
-The band that the optimal slip's own pressures leave, and its residual shear within.""",
+The band with the pressures of the optimal slip, and the residual shear of this slip within it.""",
        lambda run: f.panels((run, "optimal", {"title": ""})), rows="exact", wrong="""
 The thesis has f = 0.85, between its methods 1 and 2. The limit is 0.805, proven from either side; with the coupling block transposed,
-as equation (4.10) prints it, it is the thesis' 0.85. So the thesis' order, method 1 < exact < method 2, is the mirror of the right one.""",
+as equation (4.10) prints it, it is the thesis' 0.85. So the thesis' order, method 1 < exact < method 2, is the reverse of the correct one.""",
        proof="shakedown -find friction -transposed")
 figure("4.18", "Largest loads that shake down", MAP, """
 For each reversal R the contact shakes down, from the right start, below its line and slips for ever above. R = 0 (pulsating) is ours.
-The more the load reverses, the less the contact bears.""", limits, rows="λ/f", wrong="""
-At R = -1 the thesis reads λ/f = 0.68; it is 0.804 at f = 0.85, a linear programme with bounds that meet. Where its value comes from is not known: the coupling block transposed, which gives the thesis' f of
-figure 4.17, gives another one (table).""",
+The more the load reverses, the smaller the limit.""", limits, rows="λ/f", wrong="""
+At R = -1 the thesis reads λ/f = 0.68; it is 0.804 at f = 0.85, a linear programme with bounds that meet. The origin of its value is not known. The transposed coupling block, which gives the thesis' f
+of figure 4.17, gives another value (table).""",
        proof="shakedown -find load -loads-over-friction -transposed")
 figure("4.19", "Marches from three starts", MARCHES, """
-Loss in each cycle at f = 0.85, λ = 0.8 and R = -0.5, from no slip, from the optimal slip and from its negative. From the
-optimal slip nothing is ever lost, which checks the optimum (and is not on a logarithmic axis). The others shake down, slowly. The plateau at last, of a
-ten-millionth of the first loss and less, is not mechanics: it is lost at three nodes within a thousandth of a from the trailing corner, which open, an artefact of a singular corner on this mesh. Until
-then the loss falls, quickly at first and from about the thirtieth cycle on by the same share in each (table).""",
+Loss in each cycle at f = 0.85, λ = 0.8 and R = -0.5, from no slip, from the optimal slip and from its negative. From the optimal slip no energy is ever lost, which checks the optimum (zero is not on
+a logarithmic axis). The others shake down, slowly. The plateau at the end, at most a ten-millionth of the first loss, is an artefact of the singular corner on this mesh: the loss is at three nodes
+that open, within a thousandth of a from the trailing corner. Until then the loss falls, quickly at first and from about the thirtieth cycle on by the same share in each (table).""",
        lambda run: f.panels((run, "losses", {"title": ""})), rows="first loss", wrong="""
-The thesis sees a small slip that stays from the negative start, and takes it for a dependence on the start. It
-decays as that from no slip does, until the corner's nodes are all that is left; coarse uniform meshes show such plateaus much sooner.""", proof=MARCHES,
-       stated=[("loss of a cycle over the one before, cycles 3 to 5", 0.58, 0.01, None, lambda run: decay(run, 2, 5)),
-               ("loss of a cycle over the one before, cycles 31 to 50", 0.885, 0.01, None, lambda run: decay(run, 30, 50))])
+From the negative start the thesis finds a small slip that remains, and concludes that it depends on the start. This slip decays like that from no slip, until only the nodes at the corner slip. Coarse
+uniform meshes show such plateaus much sooner.""", proof=MARCHES,
+       stated=[("loss of a cycle over that of the previous one, cycles 3 to 5", 0.58, 0.01, None, lambda run: decay(run, 2, 5)),
+               ("loss of a cycle over that of the previous one, cycles 31 to 50", 0.885, 0.01, None, lambda run: decay(run, 30, 50))])

@@ -11,7 +11,7 @@ SWEEP = f'lap_joint -spacing 0.01 -map-friction "0.2 0.5 0.8" -map-load {LOADS}'
 # Changes of c are of the size of 0.01 t: nodes lie close enough for a hundredth of that.
 EXTENT = [f'lap_joint -spacing 0.0025 -friction 0.8 -map-load {LOADS}', "lap_joint -spacing 0.0025 -friction 0.8 -load 0.01", "lap_joint -spacing 0.0025 -friction 0.8 -load 0.03",
           "lap_joint -friction 0.5 -load -0.04"]
-# From -0.0281 p0 t on the free ends touch at w = 2 t of the same force, from -0.0283 at w = t/2 of the same pressure.
+# The free ends touch from -0.0281 p0 t on for w = 2 t with the same force, and from -0.0283 p0 t on for w = t/2 with the same pressure.
 WIDTHS = 'lap_joint -spacing 0.005 -friction 0.5 -map-load "-0.025 0.025" -map-width "0.5 1 2"'
 TOUCH = "lap_joint -touch -load -0.04"
 
@@ -28,8 +28,8 @@ passes from lap to lap by shear, which slips outside of the stick zone |x| < c; 
 By symmetry shear does not change the pressure here (the contact is uncoupled), but T itself does: tension bends the free ends
 apart and the contact shrinks, compression widens it until the free ends touch. The first cycle differs from the next ones, which are all the same.
 
-*t is the thickness of the whole joint*, each lap has t/2; the thesis calls it the thickness of the laps, but its numbers are those of the former.
-Laps go on 16 t to their loaded ends and 1.95 t beyond the bolt. Units: t = p0 = E' = 1, E' = E/(1-ν²); losses D as D E'/P0², w = t unless said.
+*t is the thickness of the whole joint*, each lap has t/2; the thesis calls it the thickness of the laps, but its numbers are for the whole joint. Laps extend 16 t to their loaded ends and 1.95 t
+beyond the bolt. Units: t = p0 = E' = 1, E' = E/(1-ν²); losses D as D E'/P0², w = t unless said.
 """)
 figure = CHAPTER.figure
 
@@ -119,8 +119,9 @@ def widths(run):
     return sheet
 
 
-TIES = """ Followed exactly, from one change of a node's state to the next, with contact nodes every 0.0025 t. Drawn are settled states: a node that touches without force is no
-contact, and one at the friction limit that hasn't moved sticks. Steps that remain in the edge of the contact are of one node."""
+TIES = """ Followed exactly, from one change of a node's state to the next, with contact nodes every 0.0025 t. Drawn are settled
+states: a node that touches without force is not in contact, and a node at the friction limit that hasn't moved sticks.
+The remaining steps in the edge of the contact are one node wide."""
 
 
 def zones(run):
@@ -128,9 +129,9 @@ def zones(run):
 
 
 CHAPTER.sketch("6.1", "A receding contact", """
-Two strips that touch all along, and what is left of the contact as soon as they are pressed, however lightly.""", sketches.receding)
+Two strips that touch along their whole length, and the contact that remains under any pressure, however small.""", sketches.receding)
 CHAPTER.sketch("6.2a", "The joint and its loads", """
-T acts uniformly on the loaded end of each lap. Nodes in the middle of these ends are held against motion up and down, one of the contact against motion along.""",
+T acts uniformly on the loaded end of each lap. Nodes in the middle of these ends are held in the vertical direction, and one node of the contact along the strips.""",
                sketches.lap)
 figure("6.2b", "The mesh", "lap_joint --check", "The finite elements of the laps, finest where contact ends.",
        lambda run: f.panels((run, "mesh", {"title": ""})))
@@ -140,13 +141,13 @@ figure("6.4", "Tractions, tension", joint(0.04, 0.2), """
 Pressure and shear over f in the seven states of figure 6.3, Tmax = 0.04 P0, f = 0.2. Tension shrinks the contact; the pressure comes back with T, while the shear leaves
 a pattern with reverse slip at T = 0, and is then the same in every cycle.""", tractions, rows="a0|peak|^a/t|c/a|steady, T = 0.04",
        stated=[("c/a of a Cattaneo contact at the same T/fP0", math.sqrt(1 - 0.04 / 0.2), 1e-9, 0.89, lambda run: None)], wrong="""
-The thesis' half-widths are about 0.01 t too large. Its bilinear mesh doesn't explain that, which gives ours to a thousandth; its values seem to be read off figures.""",
+The thesis' half-widths are about 0.01 t too large. Its bilinear mesh doesn't explain that, because such a mesh gives our values to a thousandth. Its values seem to be read off figures.""",
        proof=joint(0.04, 0.2) + " -order 1 -spacing 0.01")
 figure("6.5", "Contact and stick against the load", EXTENT, """
-Changes of the half-widths of contact and of stick from the width under P alone, in the steady cycle at f = 0.8. Bars: half of the distance of nodes, to which c is known. The table has the steady c at
-f = 0.5 in compression as well.""", extent, rows="a0/t|c/t, steady", wrong="""
-The thesis has both changes positive in compression. That of the contact is. The stick zone shrinks whichever way T acts, if little in compression: slip enters from the edge of the
-contact, which is at a0 again whenever T is back at 0, so that c can't exceed a0.""", proof='lap_joint -spacing 0.0025 -friction 0.8 -map-load "-0.04 -0.02"')
+Changes of the half-widths of contact and of stick from the width under P alone, in the steady cycle at f = 0.8. Bars: half of the distance between nodes, which is the error of c. The table has the
+steady c at f = 0.5 in compression as well.""", extent, rows="a0/t|c/t, steady", wrong="""
+The thesis has both changes positive in compression. The change of the contact is positive. The stick zone shrinks in both directions of T, although only a little in compression: slip enters from the
+edge of the contact, which returns to a0 whenever T returns to 0, so that c can't exceed a0.""", proof='lap_joint -spacing 0.0025 -friction 0.8 -map-load "-0.04 -0.02"')
 for number, load, friction, text in (
         ("6.6a", 0.04, 0.2, "Zones in time: 1 is the end of tightening, then T goes up and down. An infinitesimal decrease of T makes everything stick; then slip the other way "
          "sets in, but not as far as that of the pull had gone. The upper lap is pulled to the left: what the thesis calls forward slip is backward in these pictures. From step 2 on all cycles are the same."),
@@ -158,18 +159,18 @@ The states of figure 6.3 with Tmax = -0.04 P0: the contact grows with the load a
     figure(number, f"Zones in the cycles, T = {load:g} P0, f = {friction:g}", joint(load, friction) + " -spacing 0.0025", text + (TIES if number == "6.6a" else ""), zones, rows="steady")
 for number, load, word in (("6.9a", 0.04, "tension"), ("6.9b", -0.04, "compression")):
     figure(number, f"Where energy is lost, {word}", [joint(load, friction) for friction in (0.2, 0.5, 0.8)], f"""
-Energy lost per unit of the contact in a steady cycle between 0 and {load:g} P0. It is zero at the edge, where the pressure is, and at the border of stick, where the slip is; friction
+Energy lost per unit of the contact in a steady cycle between 0 and {load:g} P0. It is zero at the edge, where the pressure is zero, and at the border of stick, where the slip is zero. More friction
 makes both the zone and the loss smaller.""", densities, rows="^D ")
 figure("6.10", "Loss against load", [SWEEP], """
-Loss a cycle for three coefficients of friction. It falls with f, because slip shortens more than shear grows, and rises nearly as the cube of the load.""",
+Loss per cycle for three coefficients of friction. It falls with f, because slip decreases more than shear grows, and rises nearly with the cube of the load.""",
        losses, wrong="""
-The thesis concludes that tension dissipates more than compression. That holds for the first cycle (right); in the steady cycle, which the figure is about, compression
-does (left): the contact is wider there.""", proof=SWEEP)
+The thesis concludes that tension dissipates more than compression. That holds for the first cycle (right); in the steady cycle, which the figure shows, compression dissipates more (left), because the
+contact is wider.""", proof=SWEEP)
 figure("6.11", "Loss against the width of the bolt", WIDTHS, """
-The same pull of 0.025 p0 t acts on bolts of other widths. With it the free ends stay apart in compression. From 0.028 p0 t on they touch at w = 2 t with the same force, and at w = t/2 with the same pressure, and
-take most of the loss. With the same pressure a wider bolt loses less, and at the same width so does a higher pressure; of bolts of the same force the narrow one, whose pressure is
-highest, loses least.""", widths, wrong="""
-The thesis concludes that a wider pinch loses less. That holds for the same pressure p0 (solid); for the same force P0 a wider one loses more (dashed).""", proof=WIDTHS)
+The same pull of 0.025 p0 t acts on bolts of other widths. With it the free ends stay apart in compression. From 0.028 p0 t on they touch at w = 2 t with the same force, and at w = t/2 with the same
+pressure, and most of the loss is there. At the same pressure a wider bolt loses less energy, and at the same width a higher pressure loses less. Among bolts with the same force the narrow one, whose
+pressure is highest, loses least.""", widths, wrong="""
+The thesis concludes that a wider pinch loses less. That holds for the same pressure p0 (solid). For the same force P0 a wider pinch loses more (dashed).""", proof=WIDTHS)
 figure("6.2.2", "Where compression ends", TOUCH, """
-The text's remark on compression: at a certain load the free ends touch. It depends on how far they reach (-0.0397 at 2 t, -0.0417 at 1.9 t beyond the bolt).""",
+The text's remark on compression: at a certain load the free ends touch. This load depends on how far they reach (-0.0397 at 2 t, -0.0417 at 1.9 t beyond the bolt).""",
        lambda run: f.panels((run, "tractions", {"title": "at Tmax = -0.04 P0"})), rows="touch")

@@ -12,7 +12,7 @@ MAP = "shakedown -find load -map -loads-over-friction -transposed -lower"
 RECEDING = 'plane_receding -spacing 0.04 -corner 0.01 -increments 20 -cycles 40 -cycle-to "0.2 0.4 0.6 0.8 0.9 0.95"'
 
 CHAPTER = Chapter(8, "Further work", """
-The thesis ends with five proposals. What became of them here.
+The thesis ends with five proposals. This chapter shows what Cattaneo has made of them.
 """)
 figure = CHAPTER.figure
 
@@ -71,35 +71,36 @@ def lower(*all_runs):
 
 
 figure("8.2 (1)", "Optimised profiles", [PAD, "design --profile crown --loads \"0.3 1\" --weights \"2 1\""], """
-The profile of the punch whose largest pressure is least, found by derivatives of the solved contact: from a flat pad, whose pressure is singular at its ends, to one that presses
+The profile of the punch with the smallest peak pressure, found by derivatives of the solved contact: from a flat pad, whose pressure is singular at its ends, to one that presses
 uniformly. Another objective, the energy lost in a cycle, and limits of curvature: `docs/design.md`.""",
        lambda run, crown: f.panels((run, "profile", {"title": "gap, P alone"}), (run, "pressure", {"title": "pressure", "limits_y": "0,3"}),
                                    (crown, "profile", {"title": "gap, a crown for two loads"}), (crown, "pressure", {"title": "pressure", "limits_y": "0,3"})),
        rows="uniform|gap at")
 figure("8.2 (2)", "Coupling", MISMATCH, """
 The degree of coupling is the largest share of elastic energy that slip and opening can have in common, a number between 0 and 1; for two half-planes it is
-Dundurs' |β|. Here it and the limits, for blocks (ν = 0.3) on half-planes of other stiffness and Poisson's ratio. Above: on a soft half-plane the block is all but rigid, and its corners do little: the
-coupling follows |β| down to a rest. On stiffer ones the shape of the block decides, and β moves it little. Below: what the contact bears against three coefficients of friction (λ = f is gross sliding), and against the
-coupling: it isn't decided by that number, which knows nothing of the loads. Only α and β count, not the four constants: blocks with ν = 0, 0.2 and 1/3 on half-planes that have the same α and β bear the same to a few parts in
-ten thousand.
+Dundurs' |β|. Here it and the limits, for blocks (ν = 0.3) on half-planes of other stiffness and Poisson's ratio. Above: on a soft half-plane the block is nearly rigid, and its corners have little
+influence: the coupling follows |β|, except for a small remainder. On stiffer ones the shape of the block decides, and β has little influence. Below: the limit for three coefficients of friction (λ =
+f is gross sliding), and the limit over the coupling. The coupling doesn't decide the limit, because it doesn't depend on the loads. Only α and β count, not the four constants: blocks with ν = 0, 0.2
+and 1/3 on half-planes that have the same α and β have the same limits to a few parts in ten thousand.
 
-The number needs a fine mesh: for equal bodies it is 0.411 on 17 nodes, 0.430 on the 65 of the figure, 0.440 on 201 and 0.445 on 401, still rising, since the corner is singular.""", mismatch)
+The number needs a fine mesh: for equal bodies it is 0.411 on 17 nodes, 0.430 on the 65 of the figure, 0.440 on 201 and 0.445 on 401, and still rises, because the corner is singular.""", mismatch)
 figure("8.2 (3)", "Order of tightening", BOLTS, """
-Three bolts in a row, tightened from the middle outward, and from outside inward: the shear that is left after it, and the loss in a steady cycle. With laps of different thickness the order
-matters for the shear that is left; equal laps have none (second command), since by symmetry pressing doesn't shear them.""",
-       lambda run, _: f.panels((run, "residual", {"title": "Shear left by tightening"}), (run, "dissipation", {"title": "Loss a steady cycle"})))
+Three bolts in a row, tightened from the middle outward, and from outside inward: the residual shear after tightening, and the loss in a steady cycle. With laps of different thickness the order
+changes the residual shear. Equal laps have none (second command), because by symmetry pressing doesn't shear them.""",
+       lambda run, _: f.panels((run, "residual", {"title": "Shear left by tightening"}), (run, "dissipation", {"title": "Loss per steady cycle"})))
 figure("8.2 (4)", "Lower limit of shakedown", [*LOWER, MAP], """
-Below λ1 a coupled contact shakes down from every start, between λ1 and λ2 from some. The thesis proposes to solve the constraints of all combinations of states, of which there are too many. Here is what is
-proven, and what was tried.
+Below λ1 a coupled contact shakes down from every start, between λ1 and λ2 from some starts. The thesis proposes to solve the constraints of all combinations of states, of which there are too many.
+Here is what is proven, and what was tried.
 
-*Proven.* For the thesis' block no positive λ1 is known, since an admissible slip may take all pressure from the nodes at the corners under P alone, and then their friction holds nothing. But it is proven that in a contact that stays
-closed slip can go on for ever only if it does within a distance δ of a corner, below the load on the right: within 0.05 a below λ = 0.6, which is seven tenths of λ2. The proof is an energy of the slip that is
-left, which falls whenever a node slips that is sure of enough pressure.
+*Proven.* For the thesis' block no positive λ1 is known, because an admissible slip may take all pressure from the nodes at the corners under P alone, and friction can then hold nothing there. But a
+weaker statement is proven. In a contact that stays closed, slip can go on for ever below the load on the right only if nodes within a distance δ of a corner slip for ever. For λ = 0.6, which is seven
+tenths of λ2, this distance is 0.05 a. The proof is an energy of the remaining slip. It falls whenever a node slips whose pressure is certainly large enough.
 
 *Tried* (left): marches from random and adversarial starts. None slips for ever at nodes that stay closed, up to 0.98 λ2. But from starts that take the pressure from the corners a few nodes there open and slip in every cycle, even at λ = 0.05; they
-lose less than a ten-millionth of what the first cycle does. For a contact that may open λ1 is no larger than that load, so there is nothing left to prove. The mesh decides about the corners then.""", lower)
+lose less than a ten-millionth of what the first cycle does. For a contact that may open, λ1 is no larger than that load, so there is nothing to prove. The mesh then decides the state of the corners.""", lower)
 figure("8.2 (5)", "Shakedown of a receding contact", RECEDING, """
-The strip of chapter 5 under a pressure that goes between p0 and less: loss in each cycle. The theory takes a set of nodes that stay closed and can say nothing here, since with the load nodes at
-the edge open and close (the table of the command counts them); these are marches from one start, observed and not proven. The loss that remains falls with the third power of the range if that is small, with the fifth if it is large. It is there even when the load
-loses only a twentieth, because whatever makes the contact recede further makes its edge slip. Left: zones in the first two cycles, down to 0.2.""",
+The strip of chapter 5 under a pressure that goes between p0 and less: loss in each cycle. The theory assumes a set of nodes that stay closed. It does not apply here, because nodes at the edge open
+and close with the load (the table of the command counts them). These are marches from one start: an observation, not a proof. The loss that remains falls with the third power of the range if that is
+small, with the fifth if it is large. It is there even when the load loses only a twentieth, because whatever makes the contact recede further makes its edge slip. Left: zones in the first two cycles,
+down to 0.2.""",
        lambda run: f.panels((run, "load_cycle_zones", {"title": "", "limits_y": "-2,2"}), (run, "load_losses", {"title": ""})))

@@ -278,8 +278,9 @@ Search growing_friction(Increment &at)
    constexpr double operations = 3e9; // a second or two
    const double N = static_cast<double>(s.K.rows());
    auto left = static_cast<Index>(operations / disc_step_operations(N));
-   // One path in a hundred ends in a circle, as steps may jump from one branch to another.
-   // Other roundings give other paths: as many as so many factors allow.
+   // One path in a hundred repeats itself without end, because steps may jump from one branch
+   // to another. Other roundings give other paths, as many as the allowed number of factors
+   // permits.
    constexpr Index enough = 1000, few = 100;
    std::mt19937_64 random(1);
    for (const double size : {0.1, 0.01, 1.0, 0.1, 0.03, 0.3, 0.01, 0.1})
