@@ -134,3 +134,48 @@ def test_a_straight_line_in_logarithmic_axes_has_its_slope():
     slopes(parts, {"scale": "loglog"})
     assert [part["series"] for part in parts.values()] == ["slope 3", "f = 1"]
 
+
+
+def test_places_are_named_by_x_where_a_line_is_straight():
+    pytest.importorskip("matplotlib")
+    zones = {"name": "zones_in_time", "kind": "zones", "title": "Zones", "x": "time", "y": "arc length [mm]", "straight": "face=x,-1,5",
+             "parts": [{"state": ["stick", "slip", "stick", "slip"], "time": [1, 1, 2, 2], "from": [0, 4, 0, 6], "to": [4, 10, 6, 10]}]}  # fmt: skip
+    curves = {"name": "tractions", "kind": "lines", "title": "Tractions", "x": "arc length [mm]", "y": "p", "apart": "interfaces",
+              "straight": ["a=x,1,-5", "b=x,1,-1"],
+              "parts": [{"series": name, "style": style, "x": [0, 2], "y": [1, 2]}
+                        for name, style in (("a", "line"), ("q/f: a", "dashed"), ("b", "line"), ("q/f: b", "dashed"))]}  # fmt: skip
+    run = {**RUN, "shown": {**RUN["shown"], "panels": [zones, curves]}}
+    in_time, a, b = show.plot(run).axes  # one panel an interface
+    assert in_time.get_ylabel() == "x [mm]" and sorted(in_time.get_ylim()) == [-5, 5]
+    assert [axes.get_xlabel() for axes in (a, b)] == ["x [mm]"] * 2 and [axes.get_title() for axes in (a, b)] == ["Tractions, a", "Tractions, b"]
+    assert a.get_lines()[0].get_xdata().tolist() == [-5, -3] and b.get_lines()[1].get_xdata().tolist() == [-1, 1]
+    assert a.get_lines()[0].get_color() != b.get_lines()[0].get_color()
+    # One that lies along y beside one along x: arc length is all that they share.
+    curves["straight"] = ["a=x,1,-5", "b=y,1,-1"]
+    del curves["apart"]
+    run["shown"]["panels"] = [curves]
+    (both,) = show.plot(run).axes
+    assert both.get_xlabel() == "arc length [mm]" and both.get_lines()[0].get_xdata().tolist() == [0, 2]
+
+
+def test_ticks_have_one_power_of_ten_beside_the_unit():
+    pytest.importorskip("matplotlib")
+    line = {"name": "l", "kind": "lines", "title": "l", "x": "slip [mm]", "y": "share", "limits x": "0,4e-4", "limits y": "0,1",
+            "parts": [{"series": "", "style": "line", "x": [0, 4e-4], "y": [0, 1]}]}  # fmt: skip
+    (axes,) = show.plot({**RUN, "shown": {**RUN["shown"], "panels": [line]}}).axes
+    assert axes.get_xlabel() == "slip [$10^{-4}$ mm]" and axes.xaxis.get_major_formatter()(2e-4) == "2"
+    assert axes.get_ylabel() == "share"
+
+
+def test_results_of_a_sweep_are_called_as_the_program_calls_them():
+    from cattaneo_show.sweep import varies, words_of
+
+    def point(value, ended_well):
+        return type("P", (), {"ended_well": ended_well, "results": {
+            "peak": value, "total_dissipation": 1.0,
+            "shown": {"values": [{"key": "peak", "label": "peak pressure [MPa]", "value": value, "unit": ""}], "units": {"energy": " [N mm]"}}}})()
+
+    points = [point(1.0, True), point(1.0, True), point(2.0, False)]
+    assert words_of(points, "peak") == ("peak pressure", " [MPa]")
+    assert words_of(points, "total_dissipation") == ("total dissipation", " [N mm]") and words_of(points, "none_such") == ("none such", "")
+    assert not varies(points, ["peak"])  # where a run slides it says nothing

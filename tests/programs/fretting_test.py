@@ -202,6 +202,33 @@ def test_critical_planes_under_a_hertz_contact_are_those_of_the_closed_forms(run
         assert "must be from the spacing of the contact nodes" in refused.output
 
 
+def mindlin_edge_stress(shear):
+    """σ_xx at the trailing edge: q = f p0 (√(1 - x²/a²) - (c/a) √(1 - x²/c²)), each of which is 2 q0 (ξ - √(ξ² - 1)) at |ξ| >= 1."""
+    contact = CylinderOnHalfPlane(shear)
+    stick = math.sqrt(1 - shear / (contact.f * contact.P))
+    return 2 * contact.f * contact.p0 * (1 - stick * (1 / stick - math.sqrt(1 / stick**2 - 1)))
+
+
+@pytest.mark.parametrize("bulk", [0, 10])
+def test_the_edge_stress_of_the_solved_contact_is_that_of_the_closed_form(run, bulk):
+    """σ_xx at the trailing edge by Hertz, Cattaneo and Mindlin, and with bulk stress by Nowell and Hills, as the pad 'hertz' has it. A
+    finer mesh comes closer."""
+    exact = run.line(f"fretting --shear-load 50 --bulk {bulk}")["edge_stress_contact"]
+    if bulk == 0:  # 2 f p0 (1 - c/a), of two elliptic shears whose edges are at a and c
+        near_relative(exact, mindlin_edge_stress(50), 1e-9)
+    coarse, fine = (run.line(f"fretting --pad fe --shear-load 50 --bulk {bulk} --nodes {nodes}") for nodes in (101, 401))
+    off = [abs(one["edge_stress_contact"] - exact) for one in (coarse, fine)]
+    assert off[1] < off[0] < 0.025 * exact
+    assert off[1] < fine["edge_stress_contact_error_estimate"] < 0.03 * exact
+
+
+def test_a_solved_pad_is_saved_with_its_bulk_stress(run):
+    saved = run.folder / "pad.json"
+    run.line(f"fretting --pad fe --shear-load 50 --bulk 10 --nodes 41 --save {saved}")
+    went_on = run("march", "--reduced", saved, "--history", "P=0; P=1; Q=0.1 bulk=10")
+    assert went_on["status"] == "converged"
+
+
 @pytest.mark.rest
 def test_the_severest_critical_plane_is_within_the_error_of_the_mesh(run):
     """It is found between the places of the figure, and the mesh's own ± holds."""
