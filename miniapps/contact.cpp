@@ -17,6 +17,7 @@
 
 #include "common/contact_edges.hpp"
 #include "common/own_history.hpp"
+#include "contact/contact_in_space.hpp"
 #include "contact/example_case.hpp"
 #include "contact/joint_report.hpp"
 #include "contact/load_sizes.hpp"
@@ -78,7 +79,7 @@ struct CaseOptions
                     example_names() + ".")
                       .c_str());
       study.options().leave_out_of_cases("example");
-      study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
+      study.option(&analysis, "analysis", "plane strain, plane stress, axisymmetric or space.");
       study.option(
          &thickness, "thickness",
          "Thickness of plane bodies: forces, moments and energies are those of the whole "
@@ -155,6 +156,13 @@ void contact(Study &study)
          study.say("   units are" + study.units.of(0, 1) + " and" + study.units.of(1, 0) +
                    ", forces in" + study.units.total(0));
       }
+   }
+   if (joint.in_space())
+   {
+      require(options.edges.empty(), edges,
+              " is for plane and axisymmetric bodies: leave it out of a case in space");
+      contact_in_space(study, joint, history, options.paraview);
+      return;
    }
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());

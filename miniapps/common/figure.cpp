@@ -52,7 +52,7 @@ Panel::Panel(Kind kind, const std::string &name, const std::string &title,
              const std::string &x_label, const std::string &y_label)
    : name_(name), kind_(kind)
 {
-   static const char *const kinds[] = {"lines", "zones", "plan", "field", "scene"};
+   static const char *const kinds[] = {"lines", "zones", "plan", "field", "scene", "map"};
    words_ = {{"kind", kinds[static_cast<std::size_t>(kind)]},
              {"title", title},
              {"x", x_label},
@@ -69,11 +69,13 @@ struct PanelColumns
 };
 const PanelColumns &columns_of(Panel::Kind kind)
 {
-   static const PanelColumns all[] = {{{"series", "style"}, {"x", "y"}},
-                                      {{"state"}, {"time", "from", "to"}},
-                                      {{"item"}, {"from", "to"}},
-                                      {{"series"}, {"x", "y", "value"}},
-                                      {{"item"}, {"x", "y", "dx", "dy"}}};
+   static const PanelColumns all[] = {
+      {{"series", "style"}, {"x", "y"}},
+      {{"state"}, {"time", "from", "to"}},
+      {{"item"}, {"from", "to"}},
+      {{"series"}, {"x", "y", "value"}},
+      {{"item"}, {"x", "y", "dx", "dy"}},
+      {{"item"}, {"x", "y", "value", "contact", "stick", "dx", "dy"}}};
    return all[static_cast<std::size_t>(kind)];
 }
 
@@ -266,6 +268,16 @@ void Panel::item(const std::string &item, const Eigen::Vector2d &from,
 void Panel::add(const std::string &series, double x, double y, double value)
 {
    row({series}, {x, y, value});
+}
+
+void Panel::corner(const Eigen::Vector2d &at, double value, bool contact, bool stick)
+{
+   row({"corner"}, {at[0], at[1], value, contact ? 1.0 : 0.0, stick ? 1.0 : 0.0, 0, 0});
+}
+
+void Panel::arrow(const Eigen::Vector2d &at, const Eigen::Vector2d &extent)
+{
+   row({"arrow"}, {at[0], at[1], extent.norm(), 0, 0, extent[0], extent[1]});
 }
 
 void Panel::limit(const char *axis, double lo, double hi)

@@ -29,7 +29,8 @@ public:
       zones, ///< states along the contact (y) against time or load (x)
       plan,  ///< a surface of revolution from above: rings in their states, arrows of slip
       field, ///< a field over x and y
-      scene  ///< bodies with their supports and loads
+      scene, ///< bodies with their supports and loads
+      map    ///< a value on triangles of a surface, with arrows and outlines
    };
    Panel(Kind kind, const std::string &name, const std::string &title,
          const std::string &x_label, const std::string &y_label);
@@ -67,6 +68,12 @@ public:
              const Eigen::Vector2d &extent);
    /// Adds a value to a field.
    void add(const std::string &series, double x, double y, double value);
+
+   /// Adds a corner of a triangle to a map; three that follow each other are a triangle.
+   /// `contact`, `stick`: the state of the node there.
+   void corner(const Eigen::Vector2d &at, double value, bool contact, bool stick);
+   /// Adds an arrow to a map.
+   void arrow(const Eigen::Vector2d &at, const Eigen::Vector2d &extent);
 
    /// A setting that only the figure uses: "limits x", "0,1" (if a side is empty, the data
    /// decide); "reversed", "x"; "scale", "loglog" or "semilogx" or "semilogy"; "shade",

@@ -6,6 +6,7 @@
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/areas.hpp>
 #include <cattaneo/readout/places.hpp>
 #include <cmath>
 #include <deque>
@@ -487,7 +488,8 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (!goes_on || study_.csv().empty()) { continue; }
       zones_in_time.read(name, study_.csv() + "_" + diagram.name() + ".csv", state.time);
    }
-   const bool shown = study_.keeps_panels() && problem.nodes() > 0;
+   // Surfaces have no arc length, along which zones lie.
+   const bool shown = study_.keeps_panels() && !problem.chains.empty();
    if (goes_on && shown && zones_in_time.empty())
    {
       study_.say(text("Zones in time begin at %g, where the march continues, because no file "
@@ -500,7 +502,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
                       "because no file has the earlier ones",
                       ended));
    }
-   Film *film = problem.nodes() > 0 ? study_.film(problem) : nullptr;
+   Film *film = problem.chains.empty() ? nullptr : study_.film(problem);
    std::deque<IncrementRecord> last_increments;
    const auto with_what_is_kept = [&](ContactState reached)
    {
@@ -571,6 +573,32 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    if (saver) { save(with_what_is_kept(state), save_state_); }
 }
 
+namespace
+{
+
+/// Parts of the surface in their states.
+void report_areas(Study &study, const ReducedProblem &problem, const ContactState &state)
+{
+   const ContactAreas areas = contact_areas(problem, state);
+   const std::string unit = study.units.of(0, 2);
+   ResultTable &table = study.table("areas", {{"state", "state"},
+                                              {"area", "area" + unit, "%.5g"},
+                                              {"", "± (estimate)"},
+                                              {"area_error_estimate"},
+                                              {"nodes", "nodes"}});
+   const std::pair<const char *, const SurfacePart *> all[] = {
+      {"contact", &areas.contact},
+      {"stick", &areas.stick},
+      {"slip", &areas.slip},
+      {"separation", &areas.separation}};
+   for (const auto &[name, part] : all)
+   {
+      study.row(table, {name, part->area, error_text(part->error), part->error, part->nodes});
+   }
+}
+
+} // namespace
+
 void OwnHistory::report_state(const ReducedProblem &problem, const std::string &more)
 {
    study_.results["time"] = state.time;
@@ -581,6 +609,13 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
    if (problem.nodes() == 0) { return; } // nothing can open or slip
    study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(),
                 "peak pressure" + study_.units.of(1, -2));
+   const Eigen::Index touching = touching_nodes(problem, state);
+   study_.results["touching_nodes"] = touching;
+   if (problem.chains.empty())
+   {
+      report_areas(study_, problem, state);
+      return;
+   }
    const std::vector<Zone> zones = about_axis
                                       ? zones_to_axis(problem, cattaneo::zones(problem, state))
                                       : cattaneo::zones(problem, state);
@@ -641,8 +676,6 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                          zone.to.error, zone.chain + 1, chain.interface, from[0], from[1],
                          to[0], to[1], angles[0], angles[1]});
    }
-   const Eigen::Index touching = touching_nodes(problem, state);
-   study_.results["touching_nodes"] = touching;
    if (touching > 0)
    {
       study_.say(text("   %ld nodes touch without force, and count as separated",

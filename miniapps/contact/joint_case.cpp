@@ -17,7 +17,8 @@ using nlohmann::ordered_json;
 namespace
 {
 
-const std::vector<std::string> analyses = {"plane strain", "plane stress", "axisymmetric"};
+const std::vector<std::string> analyses = {"plane strain", "plane stress", "axisymmetric",
+                                           "space"};
 const std::vector<std::string> geometries = {"smooth", "as meshed"};
 const std::vector<std::string> slaves = {"coarser", "finer", "first", "second"};
 
@@ -57,6 +58,15 @@ public:
       {
          require(std::find(keys.begin(), keys.end(), item.key()) != keys.end(), called(),
                  ": unknown key '", item.key(), "', must be one of ", listed(keys));
+      }
+   }
+   /// InputError if it has one of these keys, which nothing in space has.
+   void must_not_have_in_space(const std::vector<std::string> &keys) const
+   {
+      for (const std::string &other : keys)
+      {
+         require(!has(other), called(), " has the key ", other,
+                 ", which is not for bodies in space: leave it out");
       }
    }
    std::string text(const std::string &allowed = "a string") const
@@ -139,12 +149,24 @@ public:
       const std::vector<double> both = numbers(any);
       return {both[0], both[1]};
    }
-   JointCase::Profile profile(const Check &check) const
+   Eigen::Vector3d triple(const std::string &allowed = "three numbers") const
+   {
+      if (!value_.is_array() || value_.size() != 3) { refuse(allowed); }
+      const std::vector<double> all = numbers(any);
+      return {all[0], all[1], all[2]};
+   }
+   JointCase::Profile profile(const Check &check, bool in_space) const
    {
       JointCase::Profile made;
       if (value_.is_string())
       {
-         made.function.emplace(called(), text(), std::vector<std::string>{"s", "x", "y"});
+         made.function.emplace(called(), text(),
+                               in_space ? std::vector<std::string>{"x", "y", "z"}
+                                        : std::vector<std::string>{"s", "x", "y"});
+      }
+      else if (in_space && !value_.is_number())
+      {
+         refuse("a number, or a function of the place x, y, z");
       }
       else if (value_.is_number()) { made.points = {{0, number(check)}}; }
       else
@@ -249,9 +271,89 @@ std::vector<BulkStress> bulk_stresses(const Key &key)
    return all;
 }
 
-JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
+/// Elastic constants, order, supports and loads.
+void add_common(JointCase::Body &made, const Key &key)
+{
+   if (key.has("order"))
+   {
+      made.order = static_cast<int>(key["order"].number(within(1, 8)));
+      require(made.order == key["order"].number(), key["order"].called(), " is ",
+              key["order"].number(), ", must be a whole number");
+   }
+   if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
+   if (key.has("support")) { made.support = key["support"].statements(); }
+   if (key.has("load")) { made.load = key["load"].statements(); }
+}
+
+/// {"points": [-4, -1, 1, 4], "cells": [6, 16, 6], "growth": [0.8, 1, 1.25]}
+JointCase::Body::Brick::Axis brick_axis(const Key &key)
+{
+   key.must_be_of({"points", "cells", "growth"});
+   JointCase::Body::Brick::Axis made;
+   made.points = key["points"].numbers(any);
+   require(made.points.size() > 1, key["points"].called(), " has ", made.points.size(),
+           " number, must have two or more");
+   for (std::size_t k = 1; k < made.points.size(); ++k)
+   {
+      require(made.points[k] > made.points[k - 1], key["points"].called(), ": ", made.points[k],
+              " follows ", made.points[k - 1], ", must increase");
+   }
+   const std::size_t pieces = made.points.size() - 1;
+   const Key cells = key["cells"];
+   for (const double count : cells.numbers(within(1, 10000)))
+   {
+      made.cells.push_back(static_cast<int>(count));
+      require(made.cells.back() == count, cells.called(), " has ", count,
+              ", must have whole numbers");
+   }
+   made.growth.assign(pieces, 1);
+   if (key.has("growth")) { made.growth = key["growth"].numbers(positive); }
+   require(made.cells.size() == pieces && made.growth.size() == pieces, key.called(), " has ",
+           made.points.size(), " points, ", made.cells.size(), " numbers of cells and ",
+           made.growth.size(),
+           " of growth, must have one cell and one growth fewer than points");
+   return made;
+}
+
+/// A body in space: a mesh, or a block.
+JointCase::Body body_in_space(const Key &key, const std::string &name)
+{
+   JointCase::Body made;
+   made.name = name;
+   made.source = source(key);
+   key.must_not_have_in_space(
+      {"part", "split", "matrix", "deck", "half-plane", "geometry", "guides", "thickness"});
+   key.must_be_of(
+      {"mesh", "block", "young", "poisson", "order", "expansion", "support", "load"});
+   require(key.has("mesh") != key.has("block"), key.called(), " has ",
+           key.has("mesh") ? "both" : "none", " of the keys mesh and block, must have one");
+   if (key.has("mesh")) { made.mesh = key["mesh"].file(); }
+   else
+   {
+      const Key block = key["block"];
+      block.must_be_of({"x", "y", "z", "elements"});
+      made.brick.emplace();
+      made.brick->axes = {brick_axis(block["x"]), brick_axis(block["y"]),
+                          brick_axis(block["z"])};
+      if (block.has("elements"))
+      {
+         made.brick->elements = block["elements"].choice({"hexahedra", "tetrahedra", "wedges"});
+      }
+   }
+   made.young = key["young"].constants(positive);
+   made.poisson = key["poisson"].constants(any);
+   add_common(made, key);
+   require(made.order <= 2, made.source.called("order"), " is ", made.order,
+           ", in space it must be 1 or 2");
+   return made;
+}
+
+JointCase::Body body(const Key &key, const std::string &name, bool as_meshed, bool in_space)
 {
    check_name(key, name);
+   if (in_space) { return body_in_space(key, name); }
+   require(!key.value().is_object() || !key.has("block"), key.called(),
+           " has the key block, which is for bodies in space: key 'analysis' must be space");
    JointCase::Body made;
    made.name = name;
    made.source = source(key);
@@ -310,18 +412,10 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
       }
    }
    if (key.has("density")) { made.density = key["density"].constants(positive); }
-   if (key.has("order"))
-   {
-      made.order = static_cast<int>(key["order"].number(within(1, 8)));
-      require(made.order == key["order"].number(), key["order"].called(), " is ",
-              key["order"].number(), ", must be a whole number");
-   }
+   add_common(made, key);
    made.as_meshed =
       key.has("geometry") ? key["geometry"].choice(geometries) == "as meshed" : as_meshed;
    if (key.has("thickness")) { made.thickness = key["thickness"].number(positive); }
-   if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
-   if (key.has("support")) { made.support = key["support"].statements(); }
-   if (key.has("load")) { made.load = key["load"].statements(); }
    if (key.has("guides"))
    {
       for (const Key &each : key["guides"].list()) { made.guides.push_back(guided(each)); }
@@ -350,6 +444,32 @@ JointCase::Side side(const Key &key, const JointCase &joint)
            made.part.empty() ? "a body and a part of its boundary, BODY:PART"
                              : "the name of the half-plane alone");
    return made;
+}
+
+/// In space {"plane": {"point": [x, y, z], "normal": [x, y, z]}} or {"sphere": {"centre": […],
+/// "radius": r}}.
+void add_obstacle_in_space(JointCase::Face &face, const Key &key)
+{
+   key.must_be_of({"plane", "sphere"});
+   require(key.value().size() == 1, key.called(),
+           " must have one of the keys plane and sphere");
+   face.solid.emplace();
+   if (key.has("plane"))
+   {
+      const Key plane = key["plane"];
+      plane.must_be_of({"point", "normal"});
+      face.solid->point = plane["point"].triple();
+      face.solid->normal = plane["normal"].triple();
+      require(face.solid->normal.norm() > 0, plane["normal"].called(),
+              " is (0, 0, 0), must have a length");
+      return;
+   }
+   const Key sphere = key["sphere"];
+   sphere.must_be_of({"centre", "radius"});
+   face.solid->point = sphere["centre"].triple();
+   face.solid->radius = sphere["radius"].number();
+   require(face.solid->radius != 0, sphere["radius"].called(),
+           " is 0, must be positive, or negative for a hollow");
 }
 
 /// {"line": [[x, y], [x, y], …]}, {"curve": "0.01*x^2"} or {"circle": {"centre": [x, y],
@@ -387,7 +507,7 @@ void add_obstacle(JointCase::Face &face, const Key &key)
 }
 
 /// {"D": {"y": -1}, "turn": {"angle": 1, "centre": [0, 5]}}
-std::vector<JointCase::Motion> motions(const Key &key)
+std::vector<JointCase::Motion> motions(const Key &key, bool in_space)
 {
    if (!key.value().is_object() || key.value().empty())
    {
@@ -398,11 +518,14 @@ std::vector<JointCase::Motion> motions(const Key &key)
    {
       const Key one = key[item.key()];
       check_name(one, item.key());
-      one.must_be_of({"x", "y", "angle", "centre"});
+      if (in_space) { one.must_not_have_in_space({"angle", "centre"}); }
+      one.must_be_of(in_space ? std::vector<std::string>{"x", "y", "z"}
+                              : std::vector<std::string>{"x", "y", "angle", "centre"});
       JointCase::Motion made;
       made.load = item.key();
       if (one.has("x")) { made.along[0] = one["x"].number(); }
       if (one.has("y")) { made.along[1] = one["y"].number(); }
+      if (one.has("z")) { made.along[2] = one["z"].number(); }
       if (one.has("angle")) { made.angle = one["angle"].number(); }
       if (one.has("centre"))
       {
@@ -410,7 +533,7 @@ std::vector<JointCase::Motion> motions(const Key &key)
          made.centre = {centre[0], centre[1]};
       }
       require(made.along.norm() > 0 || made.angle != 0, one.called(),
-              " moves nothing, must have x, y or angle that is not 0");
+              " moves nothing, must have x, y or ", in_space ? "z" : "angle", " that is not 0");
       all.push_back(made);
    }
    return all;
@@ -442,6 +565,8 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    check_name(key, name);
    key.must_be_of({"between", "friction", "strength", "gap", "slave", "tied", "overlap",
                    "pairing", "obstacle", "motion", "guide"});
+   const bool in_space = joint.in_space();
+   if (in_space) { key.must_not_have_in_space({"strength", "overlap", "pairing"}); }
    JointCase::Face made;
    made.name = name;
    made.source = source(key);
@@ -463,13 +588,17 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
       require(
          !key.has("gap"), key.called(),
          ": has both obstacle and gap: leave gap out, the obstacle's place gives the gaps");
-      add_obstacle(made, key["obstacle"]);
+      if (in_space) { add_obstacle_in_space(made, key["obstacle"]); }
+      else { add_obstacle(made, key["obstacle"]); }
    }
+   require(!in_space || sides.size() == 2 || key.has("obstacle"), key.called(),
+           " has one side and no obstacle: in space it must have a second side or the key "
+           "obstacle");
    if (key.has("motion"))
    {
       require(sides.size() == 1, key.called(),
               ": only the rigid obstacle of an interface with one side can move");
-      made.motions = motions(key["motion"]);
+      made.motions = motions(key["motion"], in_space);
    }
    if (key.has("guide"))
    {
@@ -480,9 +609,21 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
          " has a guide and a motion, must have one of them: a guide has all motions of the "
          "obstacle");
       const Key guide = key["guide"];
-      guide.must_be_of({"x", "y", "rotation", "centre"});
-      made.guide = guide_of(guide);
-      require(made.guide->centre || made.guide->rotation.motion == Guide::Motion::held,
+      if (in_space)
+      {
+         guide.must_not_have_in_space({"rotation", "centre"});
+         made.moves.emplace();
+         const std::array<const char *, 3> axes = {"x", "y", "z"};
+         for (int c = 0; c < 3; ++c)
+         {
+            if (guide.has(axes[c])) { (*made.moves)[c] = along(guide[axes[c]], false); }
+         }
+      }
+      guide.must_be_of(in_space ? std::vector<std::string>{"x", "y", "z"}
+                                : std::vector<std::string>{"x", "y", "rotation", "centre"});
+      if (!in_space) { made.guide = guide_of(guide); }
+      require(in_space || made.guide->centre ||
+                 made.guide->rotation.motion == Guide::Motion::held,
               guide.called(), " lets the obstacle turn, must have the key centre");
    }
    for (const char *other :
@@ -491,7 +632,7 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
       require(!made.tied || !key.has(other), key.called(), " is tied, it goes without the key ",
               other);
    }
-   if (key.has("friction")) { made.friction = key["friction"].profile(not_negative); }
+   if (key.has("friction")) { made.friction = key["friction"].profile(not_negative, in_space); }
    if (key.has("strength"))
    {
       require(!key.has("friction"), key.called(),
@@ -513,14 +654,17 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
       else if (word.size() > 1 && std::all_of(word.begin(), word.end(), isalpha))
       {
          require(word == "geometry", gap.called(), " is '", word,
-                 "', must be geometry, closed, a number, a function of s, x and y, or a table "
-                 "[[arc length, gap], …]");
+                 "', must be geometry, closed, a number",
+                 in_space ? ", or a function of x, y and z"
+                          : ", a function of s, x and y, or a table [[arc length, gap], …]");
       }
-      else { made.gap = gap.profile(any); }
+      else { made.gap = gap.profile(any, in_space); }
    }
    if (key.has("slave"))
    {
       const std::string word = key["slave"].choice(slaves);
+      require(!in_space || word == "first" || word == "second", key["slave"].called(), ": '",
+              word, "': nodes match in space, the slave must be first or second");
       made.slave =
          static_cast<SlaveSide>(std::find(slaves.begin(), slaves.end(), word) - slaves.begin());
    }
@@ -627,6 +771,12 @@ void each_load(JointCase &joint, Visit visit)
    for (JointCase::Face &one : joint.faces)
    {
       if (one.guide) { along(*one.guide); }
+      for (int c = 0; one.moves && c < 3; ++c)
+      {
+         Guide::Along &along = (*one.moves)[c];
+         if (along.load.empty()) { continue; }
+         visit(along.load, along.motion == Guide::Motion::displacement);
+      }
       for (JointCase::Motion &each : one.motions) { visit(each.load, true); }
    }
    for (JointCase::Bolt &one : joint.bolts) { visit(one.name, false); }
@@ -681,6 +831,11 @@ void each(const ordered_json &all, const std::string &name, Add add)
 
 } // namespace
 
+double JointCase::Profile::at(const Eigen::Vector3d &place) const
+{
+   return function ? (*function)({place[0], place[1], place[2]}) : points.front()[1];
+}
+
 double JointCase::Profile::at(double s, const Eigen::Vector2d &place) const
 {
    if (function) { return (*function)({s, place[0], place[1]}); }
@@ -722,6 +877,15 @@ JointCase joint_case(const JointKeys &keys, int order)
    const std::string word = Key(analysis, "analysis").choice(analyses);
    joint.plane_stress = word == "plane stress";
    if (word == "axisymmetric") { joint.formulation = Formulation::axisymmetric; }
+   if (word == "space")
+   {
+      joint.formulation = Formulation::space;
+      require(order <= 2, "key 'order' is ", order, ", in space it must be 1 or 2");
+      require(keys.bolts.is_null(), "key 'bolts' is not for bodies in space: leave it out");
+      require(keys.points.is_null(), "key 'points' is not for bodies in space: leave it out");
+      require(std::isnan(keys.thickness),
+              "key 'thickness' is not for bodies in space: leave it out");
+   }
    const ordered_json geometry = keys.geometry.empty() ? "smooth" : keys.geometry;
    const bool as_meshed = Key(geometry, "geometry").choice(geometries) == "as meshed";
    require(!keys.bodies.is_null(),
@@ -731,7 +895,7 @@ JointCase joint_case(const JointKeys &keys, int order)
            "key 'interfaces' is missing, must name where the bodies touch");
    each(keys.bodies, "bodies",
         [&](const Key &key, const std::string &name)
-        { joint.bodies.push_back(body(key, name, as_meshed)); });
+        { joint.bodies.push_back(body(key, name, as_meshed, joint.in_space())); });
    // A half-plane has no mesh, and is condensed to the lines of the bodies that stand on it.
    std::stable_partition(joint.bodies.begin(), joint.bodies.end(),
                          [](const JointCase::Body &one) { return !one.half_plane; });

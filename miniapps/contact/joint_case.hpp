@@ -34,7 +34,7 @@ struct JointCase
    {
       std::string name;
       Source source;
-      std::string mesh, matrix; ///< mesh or matrix; neither for a half-plane
+      std::string mesh, matrix; ///< mesh or matrix; neither for a half-plane or a brick
       std::string deck;         ///< the file with the places of the matrix's nodes, if named
       std::string part;         ///< of a mesh that is a deck: instance or set of elements
       std::string split;        ///< a line of Gmsh along which the mesh is cut
@@ -63,14 +63,30 @@ struct JointCase
       std::vector<cattaneo::BulkStress> bulk; ///< of a half-plane, its loads
       /// Its sides are the polygons that they are meshed as, and not smooth curves.
       bool as_meshed = false;
+      /// In space: cells of a brick, which need no mesh. Along each axis it is divided at
+      /// points, between which it has so many cells, each longer than the one before by a
+      /// factor.
+      struct Brick
+      {
+         struct Axis
+         {
+            std::vector<double> points, growth;
+            std::vector<int> cells;
+         };
+         std::array<Axis, 3> axes;
+         std::string elements = "hexahedra";
+      };
+      std::optional<Brick> brick;
    };
    /// A number, a table over the arc length with straight lines between its points (beyond its
    /// ends constant), or a function of arc length and place.
    struct Profile
    {
-      std::vector<std::array<double, 2>> points;    ///< one point: the same number everywhere
-      std::optional<cattaneo::Expression> function; ///< in place of points, of s, x and y
+      std::vector<std::array<double, 2>> points; ///< one point: the same number everywhere
+      /// In place of points, of s, x and y; in space of x, y and z.
+      std::optional<cattaneo::Expression> function;
       double at(double arc_length, const Eigen::Vector2d &place) const;
+      double at(const Eigen::Vector3d &place) const; ///< in space, where there is no table
    };
    struct Side
    {
@@ -83,7 +99,8 @@ struct JointCase
    struct Motion
    {
       std::string load;
-      Eigen::Vector2d along{0, 0}, centre{0, 0};
+      Eigen::Vector3d along{0, 0, 0}; ///< the third of it in space alone
+      Eigen::Vector2d centre{0, 0};
       double angle = 0;
    };
    struct Face
@@ -106,6 +123,16 @@ struct JointCase
       std::vector<Motion> motions;
       /// Guide of a rigid obstacle that is free in some way, or under forces.
       std::optional<cattaneo::Guide> guide;
+      /// In space: a rigid plane (its normal, of any sign) or a sphere (a hollow has a negative
+      /// radius), and how it moves along x, y and z.
+      struct Solid
+      {
+         Eigen::Vector3d point{0, 0, 0}; ///< of the plane, or the centre
+         Eigen::Vector3d normal{0, 0, 1};
+         double radius = none; ///< not given: a plane
+      };
+      std::optional<Solid> solid;
+      std::optional<std::array<cattaneo::Guide::Along, 3>> moves;
       /// Nodes are paired one to one if partners are no farther apart along the contact than
       /// this, in distances of nodes.
       double pairing = none;
@@ -137,6 +164,7 @@ struct JointCase
 
    cattaneo::Formulation formulation = cattaneo::Formulation::plane;
    bool plane_stress = false;
+   bool in_space() const { return formulation == cattaneo::Formulation::space; }
    int order = 2;
    /// Thickness of plane bodies without a thickness of their own. Forces are those of the whole
    /// thickness.

@@ -329,7 +329,7 @@ void set_load_sizes(OwnBodies &own, const JointCase &joint)
          made.place = "the obstacle of " + face.name;
          made.known = one.angle == 0 || one.along.norm() == 0;
          made.kind = one.angle == 0 ? "displacement" : "rotation";
-         made.along = one.along;
+         made.along = one.along.head<2>();
          made.moment = one.angle;
          shares.add(one.load, made);
       }

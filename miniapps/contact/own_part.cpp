@@ -128,6 +128,14 @@ std::string other_plane_state(const MeshNames &names, bool plane_stress, bool ab
 
 } // namespace
 
+std::vector<Material> materials_of(JointCase::Body body, const mfem::Mesh &mesh,
+                                   const MeshNames &names, bool plane_stress)
+{
+   by_attribute(body.young, body.source.called("young"), mesh, names);
+   by_attribute(body.poisson, body.source.called("poisson"), mesh, names);
+   return materials(body, mesh.attributes.Size() ? mesh.attributes.Max() : 1, plane_stress);
+}
+
 OwnPart::OwnPart(OwnBodies &own, const JointCase &joint, int b)
    : joint_(joint), body_(joint.bodies[b])
 {
@@ -190,15 +198,12 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          sides_ = curve_sides(mesh, body_.as_meshed ? 1 : order(), of_sides(b), curves,
                               supported_attributes(support, body_.support, terms_));
          if (!body_.as_meshed) { warn_of_thin_wall(sides_, body_.name, order()); }
-         const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
          JointCase::Body made = with_materials(body_, names);
-         by_attribute(made.young, body_.source.called("young"), mesh, names);
-         by_attribute(made.poisson, body_.source.called("poisson"), mesh, names);
+         own.materials.push_back(materials_of(made, mesh, names, joint_.plane_stress));
          by_attribute(made.density, body_.source.called("density"), mesh, names);
-         own.materials.push_back(materials(made, attributes, joint_.plane_stress));
+         const std::size_t attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
          const std::vector<double> &densities = made.density.values;
-         require(densities.size() < 2 ||
-                    densities.size() == static_cast<std::size_t>(attributes),
+         require(densities.size() < 2 || densities.size() == attributes,
                  body_.source.called("density"), " has ", densities.size(),
                  " values, must have one, or one for each element attribute of the mesh, 1 to ",
                  attributes);
@@ -255,18 +260,60 @@ std::vector<OwnPart::Dof> OwnPart::dofs() const
    return all;
 }
 
-namespace
+void require_one_displacement(const std::vector<Prescribed> &all,
+                              const std::vector<Holding> &holdings,
+                              const std::function<int(int dof)> &component,
+                              const std::function<std::string(int dof)> &where)
 {
-
-/// The displacements that a load prescribes to dofs of a body.
-struct Prescribed
-{
-   std::string load;
-   std::set<int> dofs;
-   const Eigen::VectorXd *values;
-};
-
-} // namespace
+   const auto by = [](const Prescribed &one, int dof)
+   { return as_text((*one.values)[dof]) + " per unit of load '" + one.load + "'"; };
+   // A support whose dofs a load moves.
+   for (const Holding &held : holdings)
+   {
+      for (const int dof : held.dofs)
+      {
+         for (const Prescribed &one : all)
+         {
+            const bool moved = one.dofs.count(dof) > 0 && (*one.values)[dof] != 0;
+            require(held.kind != "support" || !moved, "support '", held.name, "' holds ",
+                    moved ? where(dof) : "", ", and it is moved by ", moved ? by(one, dof) : "",
+                    ": the part of the load must end before it, by an interval such as "
+                    "3[-1<x<1], or the support must");
+         }
+      }
+   }
+   // Two loads that move the same nodes add up. If they share only some nodes, such as a
+   // corner, the shared nodes would follow the sum and all others only one of the loads.
+   for (std::size_t a = 0; a < all.size(); ++a)
+   {
+      for (std::size_t b = a + 1; b < all.size(); ++b)
+      {
+         for (const int way : {0, 1, 2})
+         {
+            const auto of = [&](const std::set<int> &dofs)
+            {
+               std::set<int> own;
+               for (const int dof : dofs)
+               {
+                  if (component(dof) == way) { own.insert(dof); }
+               }
+               return own;
+            };
+            const std::set<int> first = of(all[a].dofs), second = of(all[b].dofs);
+            if (first == second) { continue; }
+            for (const int dof : first)
+            {
+               const bool moved = second.count(dof) > 0 &&
+                                  ((*all[a].values)[dof] != 0 || (*all[b].values)[dof] != 0);
+               require(!moved, "two loads share ", moved ? where(dof) : "", ", which is to be ",
+                       moved ? by(all[a], dof) : "", " and ", moved ? by(all[b], dof) : "",
+                       ": the part of one must end before it, by an interval such as "
+                       "3[-1<x<1], or both must be one load");
+            }
+         }
+      }
+   }
+}
 
 void OwnPart::require_one_displacement() const
 {
@@ -295,54 +342,9 @@ void OwnPart::require_one_displacement() const
       return told("the node at ", as_text(places[dof].place), " ",
                   ways[plane][places[dof].component]);
    };
-   const auto by = [](const Prescribed &one, int dof)
-   { return as_text((*one.values)[dof]) + " per unit of load '" + one.load + "'"; };
-   // A support whose dofs a load moves.
-   for (const Holding &held : twisting_ ? around_ : holdings_)
-   {
-      for (const int dof : held.dofs)
-      {
-         for (const Prescribed &one : all)
-         {
-            const bool moved = one.dofs.count(dof) > 0 && (*one.values)[dof] != 0;
-            require(held.kind != "support" || !moved, "support '", held.name, "' holds ",
-                    moved ? where(dof) : "", ", and it is moved by ", moved ? by(one, dof) : "",
-                    ": the part of the load must end before it, by an interval such as "
-                    "3[-1<x<1], or the support must");
-         }
-      }
-   }
-   // Two loads that move the same nodes add up. If they share only some nodes, such as a
-   // corner, the shared nodes would follow the sum and all others only one of the loads.
-   for (std::size_t a = 0; a < all.size(); ++a)
-   {
-      for (std::size_t b = a + 1; b < all.size(); ++b)
-      {
-         for (const int component : {0, 1, 2})
-         {
-            const auto of = [&](const std::set<int> &dofs)
-            {
-               std::set<int> own;
-               for (const int dof : dofs)
-               {
-                  if (places[dof].component == component) { own.insert(dof); }
-               }
-               return own;
-            };
-            const std::set<int> first = of(all[a].dofs), second = of(all[b].dofs);
-            if (first == second) { continue; }
-            for (const int dof : first)
-            {
-               const bool moved = second.count(dof) > 0 &&
-                                  ((*all[a].values)[dof] != 0 || (*all[b].values)[dof] != 0);
-               require(!moved, "two loads share ", moved ? where(dof) : "", ", which is to be ",
-                       moved ? by(all[a], dof) : "", " and ", moved ? by(all[b], dof) : "",
-                       ": the part of one must end before it, by an interval such as "
-                       "3[-1<x<1], or both must be one load");
-            }
-         }
-      }
-   }
+   miniapp::require_one_displacement(
+      all, twisting_ ? around_ : holdings_, [&](int dof) { return places[dof].component; },
+      where);
 }
 
 double OwnPart::size() const

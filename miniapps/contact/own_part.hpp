@@ -5,7 +5,9 @@
 #include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/mesh_file.hpp>
 #include <cattaneo/mesh/smooth_sides.hpp>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -102,6 +104,25 @@ private:
    /// Rows of a matrix that a load prescribes.
    std::map<std::string, std::set<int>> prescribed_;
 };
+
+/// The materials of a body's attributes, from its elastic constants. InputError naming the key.
+std::vector<cattaneo::Material> materials_of(JointCase::Body body, const mfem::Mesh &mesh,
+                                             const cattaneo::MeshNames &names,
+                                             bool plane_stress);
+
+/// The displacements that a load prescribes to dofs of a body.
+struct Prescribed
+{
+   std::string load;
+   std::set<int> dofs;
+   const Eigen::VectorXd *values;
+};
+/// InputError if two loads, or a load and a support, ask for different displacements of a node.
+/// `component`, `where`: of a dof its number, 0 to 2, and its place and direction in words.
+void require_one_displacement(const std::vector<Prescribed> &all,
+                              const std::vector<Holding> &holdings,
+                              const std::function<int(int dof)> &component,
+                              const std::function<std::string(int dof)> &where);
 
 /// Gives each body that is a matrix the part of its file with the sets that its interfaces
 /// name.

@@ -3,7 +3,8 @@
 A panel has words and rows (panels.py). Kinds: lines (series, style, x, y; style: line, marked, dashed, points, hollow,
 cross, star, band or thesis), zones (time, state, from, to; one row per zone, times in order), plan (a body of revolution:
 rings with their state and radii, and arrows: rate or total, radius, angle from the radial direction), field (series, x,
-y, value; one picture per series), scene (edges of bodies, contact nodes, normals, gaps, supports, loads), and table.
+y, value; one picture per series), scene (edges of bodies, contact nodes, normals, gaps, supports, loads), map (corners
+of triangles of a surface with a value, and whether they are in contact and stick, and arrows), and table.
 
 Words: title; x and y, the labels; limits x and limits y ("lo,hi", an empty side is left to the data); inside (limits of y by the
 data inside, without that share at either end); reversed (x); scale (loglog, semilogx or semilogy); shade and shade y
@@ -24,6 +25,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Annulus, Patch, Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.tri import Triangulation
 
 from .panels import Refused, panel, panel_names, series_of, value
 
@@ -290,9 +292,33 @@ def draw_scene(axes, comments, rows):
     axes.legend(fontsize=7, ncol=3, loc="upper center", bbox_to_anchor=(0.5, -0.21), frameon=False)
 
 
+def draw_map(axes, comments, rows):
+    corners, arrows = ([row for row in rows if row["item"] == item] for item in ("corner", "arrow"))
+    x, y, shade, contact, stick = ([value(row[key]) for row in corners] for key in ("x", "y", "value", "contact", "stick"))
+    mesh = Triangulation(x, y, [(k, k + 1, k + 2) for k in range(0, len(corners), 3)])
+    shades = axes.tripcolor(mesh, shade, shading="gouraud", cmap="viridis")
+    handles = []
+    for inside, style, word in ((contact, "-", "edge of contact"), (stick, "--", "edge of stick")):
+        if min(inside) < 0.5 < max(inside):
+            axes.tricontour(mesh, inside, [0.5], colors="white", linestyles=style, linewidths=1.2)
+            handles.append(Line2D([], [], color="0.4", linestyle=style, label=word))
+    longest = max((value(row["value"]) for row in arrows), default=0)
+    if longest > 0:
+        shown = arrows[:: -(-len(arrows) // 400)]
+        sides = [said.split(",") for key in ("limits x", "limits y") for said in comments[key]] or [(min(c), max(c)) for c in (x, y)]
+        size = 0.08 * max(float(hi) - float(lo) for lo, hi in sides) / longest
+        axes.quiver(*([value(row[key]) for row in shown] for key in ("x", "y")),
+                    *([size * value(row[key]) for row in shown] for key in ("dx", "dy")),
+                    angles="xy", scale_units="xy", scale=1, width=0.004, color="white")
+    axes.figure.colorbar(shades, ax=axes)
+    axes.set_aspect("equal")
+    if handles:
+        legend_above(axes, handles)
+
+
 def finish(axes, comments):
     one = {key: texts[0] for key, texts in comments.items() if texts}
-    axes.set_title(symbols(one.get("title", "")), pad={"zones": 23, "plan": 34}.get(one["kind"], 6))
+    axes.set_title(symbols(one.get("title", "")), pad={"zones": 23, "map": 23, "plan": 34}.get(one["kind"], 6))
     axes.set_xlabel(symbols(one.get("x", "")))
     axes.set_ylabel(symbols(one.get("y", "")))
     scale = one.get("scale", "")
@@ -354,7 +380,7 @@ def less_elastic(said, rows):
 
 
 DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": draw_plan, "field": draw_field,
-        "scene": draw_scene}
+        "scene": draw_scene, "map": draw_map}
 
 
 def caption(run):

@@ -124,13 +124,78 @@ private:
    std::map<Ends, std::string> boundary_;
 };
 
-/// MFEM mesh v1.x, up to the coordinates.
-void check_mfem(std::istream &in, long size)
+/// Faces of the solids, by their corners, and boundary elements, which must be among them and
+/// be there once.
+class Faces
 {
+public:
+   void add_boundary(const std::vector<long> &corners, const std::string &what)
+   {
+      const auto [first, is_new] = boundary_.emplace(sorted(corners), what);
+      require(is_new, "mesh file has one face twice, as ", first->second, " and as ", what,
+              ": a face must be in one part of the boundary only (in Gmsh, put each surface "
+              "into one physical group)");
+   }
+   /// @param corners first nodes of a tetrahedron (4), a wedge (6) or a hexahedron (8)
+   void add_solid(const std::vector<long> &nodes, std::size_t corners, const std::string &what)
+   {
+      using Locals = std::vector<std::vector<int>>;
+      static const std::map<std::size_t, Locals> all = {
+         {4, {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}}},
+         {6, {{0, 1, 2}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
+         {8,
+          {{0, 1, 2, 3},
+           {4, 5, 6, 7},
+           {0, 1, 5, 4},
+           {1, 2, 6, 5},
+           {2, 3, 7, 6},
+           {3, 0, 4, 7}}}};
+      for (const std::vector<int> &face : all.at(corners))
+      {
+         std::vector<long> own;
+         for (const int corner : face) { own.push_back(nodes[corner]); }
+         require(++faces_[sorted(own)] < 3, "mesh file has ", what,
+                 " on a face that two earlier elements share, a face must belong to at most "
+                 "two elements: is this one listed twice, or does it overlap others?");
+      }
+   }
+   /// At the end of a file.
+   void check() const
+   {
+      require(!boundary_.empty(),
+              "mesh file has no boundary elements, which contact, supports and loads are named "
+              "by (in Gmsh, put the surfaces of the boundary into physical groups: Physical "
+              "Surface(1) = {1, 2};)");
+      for (const auto &[face, what] : boundary_)
+      {
+         require(faces_.count(face), "mesh file has the boundary ", what,
+                 ", which is no face of an element");
+      }
+   }
+
+private:
+   static std::vector<long> sorted(std::vector<long> corners)
+   {
+      std::sort(corners.begin(), corners.end());
+      return corners;
+   }
+   std::map<std::vector<long>, int> faces_; ///< and the number of elements with these corners
+   std::map<std::vector<long>, std::string> boundary_;
+};
+
+/// MFEM mesh v1.x, up to the coordinates.
+void check_mfem(std::istream &in, long size, int dimension_asked)
+{
+   const bool solid = dimension_asked == 3;
    Edges edges;
-   // Vertices of MFEM's geometries: segment, triangle, quadrilateral.
+   Faces faces;
+   // Vertices of MFEM's geometries: segment, triangle, quadrilateral, and in space tetrahedron,
+   // cube and prism.
    const auto corners = [](long geometry)
-   { return geometry < 1 || geometry > 3 ? 0 : geometry + 1; };
+   {
+      static const std::array<long, 7> all = {0, 2, 3, 4, 4, 8, 6};
+      return geometry < 1 || geometry > 6 ? 0 : all[geometry];
+   };
    std::map<std::string, bool> found;
    long highest = -1, lowest = 0;
    std::string word;
@@ -140,7 +205,8 @@ void check_mfem(std::istream &in, long size)
       if (word == "dimension")
       {
          const long dimension = integer(in, "the dimension");
-         require(dimension == 2, "mesh is of dimension ", dimension, ", must be 2");
+         require(dimension == dimension_asked, "mesh is of dimension ", dimension, ", must be ",
+                 dimension_asked);
       }
       else if (word == "elements" || word == "boundary")
       {
@@ -153,9 +219,13 @@ void check_mfem(std::istream &in, long size)
             const long attribute = integer(in, "the attribute of " + what);
             check_attribute(attribute, what);
             const long geometry = integer(in, "the geometry of " + what);
-            require(boundary ? geometry == 1 : geometry == 2 || geometry == 3,
+            const bool flat = geometry == 2 || geometry == 3;
+            require(solid ? (boundary ? flat : geometry >= 4 && geometry <= 6)
+                          : (boundary ? geometry == 1 : flat),
                     "mesh file has the geometry ", geometry, " for ", what, ", must be ",
-                    boundary ? "1 (segment)" : "2 (triangle) or 3 (square)");
+                    boundary && !solid   ? "1 (segment)"
+                    : boundary || !solid ? "2 (triangle) or 3 (square)"
+                                         : "4 (tetrahedron), 5 (cube) or 6 (prism)");
             std::vector<long> own;
             for (long v = 0; v < corners(geometry); ++v)
             {
@@ -166,7 +236,9 @@ void check_mfem(std::istream &in, long size)
                highest = std::max(highest, vertex);
                lowest = std::min(lowest, vertex);
             }
-            edges.add(own, own.size(), of_attribute(what, attribute));
+            if (!solid) { edges.add(own, own.size(), of_attribute(what, attribute)); }
+            else if (boundary) { faces.add_boundary(own, of_attribute(what, attribute)); }
+            else { faces.add_solid(own, own.size(), of_attribute(what, attribute)); }
          }
       }
       else if (word == "vertices")
@@ -178,13 +250,13 @@ void check_mfem(std::istream &in, long size)
          {
             break;
          } // curved meshes: MFEM checks them
-         require(
-            word == "2", "mesh file has '", word,
-            "' for the number of coordinates, must be 2: the mesh must be in the xy plane");
-         for (long k = 0; k < 2 * vertices; ++k)
+         require(word == std::to_string(dimension_asked), "mesh file has '", word,
+                 "' for the number of coordinates, must be ", dimension_asked,
+                 solid ? "" : ": the mesh must be in the xy plane");
+         for (long k = 0; k < dimension_asked * vertices; ++k)
          {
             check_coordinate(next_word(in, word) ? word : "",
-                             "vertex " + std::to_string(k / 2));
+                             "vertex " + std::to_string(k / dimension_asked));
          }
          break;
       }
@@ -193,7 +265,8 @@ void check_mfem(std::istream &in, long size)
    {
       require(found.count(section), "mesh file has no section '", section, "'");
    }
-   edges.check();
+   if (solid) { faces.check(); }
+   else { edges.check(); }
 }
 
 /// Reason why an element of Gmsh cannot belong to a plane body.
@@ -210,12 +283,28 @@ std::string why_not(long type)
       {
          return "a " + name +
                 ", but bodies must be plane: in Gmsh mesh their surface only (gmsh -2) "
-                "and save no volume";
+                "and save no volume, or let the analysis be in space";
       }
    }
    return "one without inner nodes (type " + std::to_string(type) +
           "), must be a line, triangle or quadrilateral of order 1 to 5 with them: in Gmsh set "
           "Mesh.SecondOrderIncomplete = 0";
+}
+
+/// Reason why an element of Gmsh is no element of a body in space.
+std::string why_not_in_space(long type)
+{
+   if (type == 17 || type == 18 || type == 16)
+   {
+      return "one without inner nodes (type " + std::to_string(type) +
+             "): in Gmsh set Mesh.SecondOrderIncomplete = 0";
+   }
+   const GmshType &shape = gmsh_types().at(type);
+   return shape.corners == 2
+             ? "a line: in Gmsh save physical groups of surfaces and volumes only"
+             : "of type " + std::to_string(type) +
+                  ", must be a triangle, quadrilateral, tetrahedron, hexahedron "
+                  "or prism of order 1 or 2";
 }
 
 /// The message that an element of Gmsh is in no physical group, and what to do. Its tags: the
@@ -278,6 +367,50 @@ void check_gmsh(const GmshMesh &mesh)
    edges.check();
 }
 
+/// check_gmsh() of a mesh of solids.
+void check_gmsh_solids(const GmshMesh &mesh)
+{
+   require(!mesh.nodes.empty(), "mesh file has no nodes");
+   Faces faces;
+   int order = 0;
+   bool has_volumes = false;
+   for (const GmshMesh::Element &element : mesh.elements)
+   {
+      const std::string what = "element " + std::to_string(element.number);
+      const GmshType &shape = gmsh_types().at(element.type);
+      const bool face = shape.corners > 2 && shape.order <= 2,
+                 solid = shape.solid_corners > 0 && shape.order > 0;
+      require(face || solid, "mesh file has ", what, ", ", why_not_in_space(element.type));
+      if (order == 0) { order = shape.order; }
+      require(shape.order == order, "mesh file has ", what, " of order ", shape.order,
+              ", must be ", order, " as those before");
+      require(!element.tags.empty() && element.tags[0] != 0, "mesh file has ", what, ", of a ",
+              face ? "surface" : "volume",
+              ", in no physical group: in Gmsh put every surface of the boundary and every "
+              "volume into one (Physical ",
+              face ? "Surface" : "Volume",
+              "(1) = {1};) and save nothing else (Mesh.SaveAll = 0)");
+      check_attribute(element.tags[0], what);
+      std::set<long> own;
+      for (long node : element.nodes)
+      {
+         require(own.insert(node).second, "mesh file has node ", node, " twice in ", what);
+      }
+      has_volumes = has_volumes || solid;
+      const std::string called = of_attribute(what, element.tags[0]);
+      if (solid) { faces.add_solid(element.nodes, shape.solid_corners, called); }
+      else
+      {
+         faces.add_boundary({element.nodes.begin(), element.nodes.begin() + shape.corners},
+                            called);
+      }
+   }
+   require(has_volumes, "mesh file has no tetrahedra, hexahedra or prisms: in Gmsh make a "
+                        "volume, put it into a physical group (Physical Volume(1) = {1};) and "
+                        "mesh it (gmsh -3)");
+   faces.check();
+}
+
 /// MFEM's message, without the places in its source.
 std::string reason(std::string message)
 {
@@ -309,7 +442,7 @@ private:
 };
 
 /// Groups of Gmsh by their names; none for other files.
-MeshNames gmsh_names(const std::string &file)
+MeshNames gmsh_names(const std::string &file, int of_dimension)
 {
    MeshNames names;
    std::ifstream in(file, std::ios::binary);
@@ -330,8 +463,8 @@ MeshNames gmsh_names(const std::string &file)
               k + 1, " of ", expected, " cannot be read, must be DIMENSION NUMBER \"NAME\"");
       std::string name = line.substr(from + 1, to - from - 1);
       std::replace(name.begin(), name.end(), ' ', '_');
-      if (dimension == 1) { names.boundary[name] = {number}; }
-      if (dimension == 2) { names.elements[name] = number; }
+      if (dimension == of_dimension - 1) { names.boundary[name] = {number}; }
+      if (dimension == of_dimension) { names.elements[name] = number; }
    }
    return names;
 }
@@ -364,6 +497,11 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
 {
    require(part.name.empty() || is_deck(file), "mesh file has no part '", part.name,
            "': only decks (.inp) have parts");
+   require(part.dimension == 2 || !is_deck(file),
+           "mesh file is a deck, of which solids are not read: a body in space must be a mesh "
+           "of MFEM or Gmsh");
+   require(part.dimension == 2 || part.split.empty(), "mesh file has no line '", part.split,
+           "' to split: only plane meshes have");
    require(part.split.empty() || !is_deck(file), "mesh file has no line '", part.split,
            "' to split: a deck has none, let two of its parts share the line");
    if (curves) { curves->clear(); }
@@ -380,16 +518,18 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
    if (is_deck(file) || line.rfind("$MeshFormat", 0) == 0)
    {
       GmshMesh mesh = is_deck(file) ? deck_mesh(file, part).mesh : read_gmsh(file, size);
-      check_gmsh(mesh);
+      if (part.dimension == 3) { check_gmsh_solids(mesh); }
+      else { check_gmsh(mesh); }
       if (!part.split.empty())
       {
-         const std::array<long, 2> both = lips(mesh, gmsh_names(file), part.split);
+         const std::array<long, 2> both = lips(mesh, gmsh_names(file, 2), part.split);
          split_line(mesh, both[0], both[1], part.split);
       }
       for (const GmshMesh::Element &element : mesh.elements)
       {
          // The messages about a deck are this program's own.
-         if (!curves || is_deck(file) || gmsh_types().at(element.type).corners != 2)
+         if (!curves || part.dimension == 3 || is_deck(file) ||
+             gmsh_types().at(element.type).corners != 2)
          {
             continue;
          }
@@ -422,7 +562,7 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
                                      : "");
       require(part.split.empty(), "mesh file has no line '", part.split,
               "' to split: only Gmsh's files name lines");
-      check_mfem(in, size);
+      check_mfem(in, size, part.dimension);
    }
    in.close();
    const Silence silence;
@@ -442,7 +582,7 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
 MeshNames mesh_names(const std::string &file, const MeshPart &part)
 {
    if (is_deck(file)) { return deck_mesh(file, part).names; }
-   MeshNames names = gmsh_names(file);
+   MeshNames names = gmsh_names(file, part.dimension);
    if (part.split.empty()) { return names; }
    const auto size = static_cast<long>(std::filesystem::file_size(file));
    const std::array<long, 2> both = lips(read_gmsh(file, size), names, part.split);

@@ -140,15 +140,21 @@ int interfaces(const ReducedProblem &problem)
    return count;
 }
 
+/// Are its nodes those of a surface, without an arc length?
+bool in_space(const ReducedProblem &problem)
+{
+   return problem.arc_length.size() == 0 && problem.position.cols() == 3;
+}
+
 std::string node_header(const ReducedProblem &problem)
 {
-   require(problem.arc_length.size() == problem.nodes() &&
+   require((in_space(problem) || problem.arc_length.size() == problem.nodes()) &&
               problem.position.rows() == problem.nodes() &&
               problem.weights.size() == problem.nodes(),
            "node table: the reduced problem must have arc lengths, positions and weights");
    return std::string("time,node,") + (interfaces(problem) > 1 ? "interface," : "") +
-          "arc_length,x,y,state,p," + (has_disc(problem) ? "q1,q2,slip1,slip2" : "q,slip") +
-          ",opening";
+          (in_space(problem) ? "x,y,z" : "arc_length,x,y") + ",state,p," +
+          (has_disc(problem) ? "q1,q2,slip1,slip2" : "q,slip") + ",opening";
 }
 
 std::string node_rows(const ReducedProblem &problem, const ContactState &state)
@@ -177,8 +183,10 @@ std::string node_rows(const ReducedProblem &problem, const ContactState &state)
          ++chain;
       }
       if (several) { out << csv_field(problem.chains[chain].interface) << ','; }
-      out << problem.arc_length[i] << ',' << problem.position(i, 0) << ','
-          << problem.position(i, 1) << ',' << name(settled[i]) << ',' << p[i];
+      if (!in_space(problem)) { out << problem.arc_length[i] << ','; }
+      out << problem.position(i, 0) << ',' << problem.position(i, 1) << ',';
+      if (in_space(problem)) { out << problem.position(i, 2) << ','; }
+      out << name(settled[i]) << ',' << p[i];
       for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << q(i, k); }
       for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << slip(i, k); }
       out << ',' << state.w[i] + problem.gap[i] << '\n';

@@ -6,6 +6,7 @@
 #include <cattaneo/output/paraview.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <map>
 #include <sstream>
 
 namespace cattaneo
@@ -21,12 +22,41 @@ std::vector<std::string> stress_names(Formulation formulation)
    {
       return {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "von_mises"};
    }
+   if (formulation == Formulation::space)
+   {
+      return {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "tau_yz", "tau_xz", "von_mises"};
+   }
    return {"sigma_rr", "sigma_zz", "sigma_tt", "tau_rz", "von_mises"};
 }
 
 const char *unknown(Formulation formulation)
 {
    return formulation == Formulation::torsion ? "twist" : "displacement";
+}
+
+/// Writes one more file of a series, and the series anew. The times are kept when the files
+/// are.
+void add_to_series(const std::string &directory, const std::string &name,
+                   std::vector<double> &all, double time, const std::string &vtp)
+{
+   std::vector<double> times = all;
+   times.push_back(time);
+   std::ostringstream pvd;
+   pvd.precision(17);
+   pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+          "version=\"0.1\">\n<Collection>\n";
+   const auto file = [&name](std::size_t k) { return name + "_" + std::to_string(k) + ".vtp"; };
+   for (std::size_t k = 0; k < times.size(); ++k)
+   {
+      pvd << "<DataSet timestep=\"" << times[k] << "\" part=\"0\" file=\"" << file(k)
+          << "\"/>\n";
+   }
+   pvd << "</Collection>\n</VTKFile>\n";
+   const std::string folder = directory + "/" + name;
+   make_folder(folder);
+   write_whole(folder + "/" + file(all.size()), vtp);
+   write_whole(folder + "/" + name + ".pvd", pvd.str());
+   all = std::move(times);
 }
 
 /// The contact forces on the last body, in the frames of its line.
@@ -56,8 +86,8 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
    fields_[unknown(body.formulation())] = std::make_unique<mfem::GridFunction>(&space);
    if (body.has_stress())
    {
-      collection_ =
-         std::make_unique<mfem::L2_FECollection>(order, 2, mfem::BasisType::GaussLobatto);
+      collection_ = std::make_unique<mfem::L2_FECollection>(order, space.GetMesh()->Dimension(),
+                                                            mfem::BasisType::GaussLobatto);
       stress_space_ =
          std::make_unique<mfem::FiniteElementSpace>(space.GetMesh(), collection_.get());
       for (const std::string &component : stress_names(body.formulation()))
@@ -117,7 +147,7 @@ void BodyFields::evaluate_stress(const NamedLoads &loads)
       for (int i = 0; i < dofs.Size(); ++i)
       {
          transformation.SetIntPoint(&nodes.IntPoint(i));
-         std::array<double, 5> values{};
+         std::array<double, 7> values{};
          if (body_.formulation() == Formulation::torsion)
          {
             const TorsionStress s = torsion_stress_at(body_, u, transformation);
@@ -127,6 +157,10 @@ void BodyFields::evaluate_stress(const NamedLoads &loads)
          {
             const Stress s = stress_at(body_, u, transformation, loads);
             values = {s.xx, s.yy, s.zz, s.xy, s.von_mises()};
+            if (body_.formulation() == Formulation::space)
+            {
+               values = {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz, s.von_mises()};
+            }
          }
          for (std::size_t c = 0; c < component.size(); ++c)
          {
@@ -222,24 +256,108 @@ void ContactLineFields::write(const ContactState &state)
    array("opening", state.w + problem_.gap);
    vtp << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 
-   std::vector<double> times = times_; // become times_ once the files are written
-   times.push_back(state.time);
-   std::ostringstream pvd;
-   pvd.precision(17);
-   pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
-          "version=\"0.1\">\n<Collection>\n";
-   const auto file = [this](std::size_t k) { return name_ + "_" + std::to_string(k) + ".vtp"; };
-   for (std::size_t k = 0; k < times.size(); ++k)
+   add_to_series(directory_, name_, times_, state.time, vtp.str());
+}
+
+ContactSurfaceFields::ContactSurfaceFields(const Reduction &reduction,
+                                           const std::string &directory,
+                                           const std::string &name)
+   : reduction_(reduction), directory_(directory), name_(name)
+{
+   const ReducedProblem &problem = reduction.problem;
+   require(problem.position.cols() == 3 && problem.position.rows() == problem.nodes(),
+           "ParaView output: the reduction is not in space, must be");
+   for (const InterfaceReport &report : reduction.interfaces)
    {
-      pvd << "<DataSet timestep=\"" << times[k] << "\" part=\"0\" file=\"" << file(k)
-          << "\"/>\n";
+      if (report.tied) { continue; }
+      // Nodes of the body's surface by their first dof.
+      const int owner = report.bodies[0];
+      std::map<int, Eigen::Index> node_of;
+      for (Eigen::Index i = report.first; i < report.first + report.nodes; ++i)
+      {
+         node_of[problem.dofs(i, 3 * owner)] = i;
+      }
+      const ContactSurface &surface = reduction.bodies[owner].surface;
+      for (const std::vector<Eigen::Index> &face : surface.faces)
+      {
+         std::vector<Eigen::Index> own;
+         for (const Eigen::Index node : face)
+         {
+            const auto found = node_of.find(surface.nodes[node].dofs[0]);
+            if (found != node_of.end()) { own.push_back(found->second); }
+         }
+         if (own.size() != face.size()) { continue; }
+         // Around the face, corners and middles of edges by turns.
+         const std::size_t corners = own.size() == 3 || own.size() == 6 ? 3 : 4;
+         std::vector<Eigen::Index> around;
+         for (std::size_t k = 0; k < corners; ++k)
+         {
+            around.push_back(own[k]);
+            if (own.size() > corners) { around.push_back(own[corners + k]); }
+         }
+         faces_.push_back(std::move(around));
+      }
    }
-   pvd << "</Collection>\n</VTKFile>\n";
-   const std::string folder = directory_ + "/" + name_;
-   make_folder(folder);
-   write_whole(folder + "/" + file(times_.size()), vtp.str());
-   write_whole(folder + "/" + name_ + ".pvd", pvd.str());
-   times_ = std::move(times);
+}
+
+void ContactSurfaceFields::write(const ContactState &state)
+{
+   const ReducedProblem &problem = reduction_.problem;
+   state.validate(problem);
+   const Eigen::Index n = problem.nodes();
+   Eigen::MatrixX3d q = Eigen::MatrixX3d::Zero(n, 3), slip = q;
+   Eigen::VectorXd status(n), which(n);
+   const std::vector<NodeState> settled = settled_states(problem, state);
+   for (Eigen::Index i = 0; i < n; ++i) { status[i] = static_cast<double>(settled[i]); }
+   for (std::size_t k = 0; k < reduction_.interfaces.size(); ++k)
+   {
+      const InterfaceReport &report = reduction_.interfaces[k];
+      for (Eigen::Index j = 0; j < report.nodes && !report.tied; ++j)
+      {
+         const Eigen::Index i = report.first + j;
+         which[i] = static_cast<double>(k);
+         for (int c = 0; c < 2 && state.q.size() > 0; ++c)
+         {
+            const auto tangent = report.frames.row(j).segment<3>(3 * c);
+            q.row(i) += state.q[c * n + i] / problem.weights[i] * tangent;
+            slip.row(i) += state.v[c * n + i] * tangent;
+         }
+      }
+   }
+   std::ostringstream vtp;
+   vtp.precision(17);
+   const auto array = [&vtp](const char *field_name, const Eigen::MatrixXd &values)
+   {
+      vtp << "<DataArray type=\"Float64\" Name=\"" << field_name << "\" NumberOfComponents=\""
+          << values.cols() << "\" format=\"ascii\">\n"
+          << values.format(Eigen::IOFormat(Eigen::StreamPrecision, Eigen::DontAlignCols))
+          << "\n</DataArray>\n";
+   };
+   vtp << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+       << "<Piece NumberOfPoints=\"" << n
+       << "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\""
+       << faces_.size() << "\">\n<Points>\n";
+   array("places", problem.position);
+   vtp << "</Points>\n<Polys>\n"
+       << "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+   std::size_t listed = 0;
+   std::ostringstream offsets;
+   for (const std::vector<Eigen::Index> &face : faces_)
+   {
+      for (const Eigen::Index node : face) { vtp << node << '\n'; }
+      offsets << (listed += face.size()) << '\n';
+   }
+   vtp << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n"
+       << offsets.str() << "</DataArray>\n</Polys>\n<PointData>\n";
+   if (reduction_.interfaces.size() > 1) { array("interface", which); }
+   array("gap", problem.gap);
+   array("state", status);
+   array("p", tractions(problem, state.p));
+   array("q", q);
+   array("slip", slip);
+   array("opening", state.w + problem.gap);
+   vtp << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+   add_to_series(directory_, name_, times_, state.time, vtp.str());
 }
 
 ReductionFields::ReductionFields(Reduction &reduction,
@@ -247,7 +365,12 @@ ReductionFields::ReductionFields(Reduction &reduction,
                                  const std::string &directory, const HalfPlane *half_plane)
    : reduction_(reduction), bodies_(bodies)
 {
-   if (reduction.problem.nodes() > 0)
+   const bool space = !bodies.empty() && bodies[0]->formulation() == Formulation::space;
+   if (reduction.problem.nodes() > 0 && space)
+   {
+      surface_.emplace(reduction, directory, "contact");
+   }
+   else if (reduction.problem.nodes() > 0)
    {
       contact_.emplace(reduction.problem, directory, "contact");
    }
@@ -274,6 +397,7 @@ void ReductionFields::write(const ContactState &state)
 {
    const bool first = Ranks::first_of_all();
    if (first && contact_) { contact_->write(state); }
+   if (first && surface_) { surface_->write(state); }
    if (first && below_)
    {
       below_->write(forces_below(reduction_, state), state.time,

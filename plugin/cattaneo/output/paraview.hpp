@@ -16,9 +16,10 @@ namespace cattaneo
 /** Series of a body's fields for ParaView (5.5 or newer), in the folder `directory`/`name`:
     open `name`.pvd. Fields: "displacement"; "sigma_xx", "sigma_yy", "sigma_zz", "tau_xy"
     (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
-    each element's own material. Axisymmetric: "sigma_rr", "sigma_zz", "sigma_tt" (hoop) and
-    "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz" instead. A body with a user's
-    operator has stresses only after ElasticBody::set_stress(), otherwise only the displacement.
+    each element's own material; in space also "tau_yz" and "tau_xz". Axisymmetric: "sigma_rr",
+    "sigma_zz", "sigma_tt" (hoop) and "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz"
+    instead. A body with a user's operator has stresses only after ElasticBody::set_stress(),
+    otherwise only the displacement.
 
     The body must outlive this. Nothing is computed or written before write(). */
 class BodyFields
@@ -74,10 +75,34 @@ private:
    std::vector<double> times_;
 };
 
+/** The same of the contact surfaces of bodies in space: one polygon a face, and the point data
+    gap, state, p, q and slip (vectors along x, y and z, those of the body that has the nodes),
+    opening, and of several interfaces the number of each node's. Values are those of the
+    unknowns, see ContactSurface.
+
+    The reduction must outlive this. */
+class ContactSurfaceFields
+{
+public:
+   /// The folder is made by the first write(). InputError unless the reduction is in space.
+   ContactSurfaceFields(const Reduction &reduction, const std::string &directory,
+                        const std::string &name);
+
+   /// Writes one more time of the series, that of the state. InputError if the state does not
+   /// fit or the folder cannot be written.
+   void write(const ContactState &state);
+
+private:
+   const Reduction &reduction_;
+   std::string directory_, name_;
+   std::vector<std::vector<Eigen::Index>> faces_; ///< nodes of the problem around each
+   std::vector<double> times_;
+};
+
 /** All series of a reduction in a folder, contact.pvd and one of each body by its name
     (body1.pvd and so on of those without), a time after the other: made to be called from a
-    MarchObserver, since it holds no state. Plane problems, and axisymmetric ones without
-    torsion.
+    MarchObserver, since it holds no state. Plane problems, axisymmetric ones without torsion,
+    and bodies in space.
 
     All must outlive this. */
 class ReductionFields
@@ -98,7 +123,8 @@ public:
 
 private:
    Reduction &reduction_;
-   std::optional<ContactLineFields> contact_; ///< none where all is tied
+   std::optional<ContactLineFields> contact_;    ///< none where all is tied, nor in space
+   std::optional<ContactSurfaceFields> surface_; ///< in space
    std::vector<const ElasticBody *> bodies_;
    std::vector<std::unique_ptr<BodyFields>> fields_;
    std::unique_ptr<HalfPlaneFields> below_;

@@ -12,8 +12,9 @@ namespace cattaneo
 struct GmshType
 {
    int nodes;
-   std::size_t corners; ///< the first of its nodes; 0: no element of a plane body
-   int order;
+   std::size_t corners;           ///< the first of its nodes; 0: no element of a plane body
+   int order;                     ///< of a solid 0 unless bodies in space may have it
+   std::size_t solid_corners = 0; ///< the first nodes of a solid
 };
 /// Points, lines, triangles, quadrilaterals (some without inner nodes) and solids, by Gmsh's
 /// numbers.

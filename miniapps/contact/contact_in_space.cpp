@@ -1,0 +1,390 @@
+#include "contact/contact_in_space.hpp"
+
+#include "common/own_history.hpp"
+#include "contact/own_part.hpp"
+#include "contact/own_warnings.hpp"
+#include "contact/report_in_space.hpp"
+
+#include <algorithm>
+#include <cattaneo/contact/condense_body.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/output/paraview.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/reduced/obstacle_shape.hpp>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Vector3d;
+
+namespace
+{
+
+/// Where the cells of a brick end along an axis.
+std::vector<double> cell_ends(const JointCase::Body::Brick::Axis &axis)
+{
+   std::vector<double> ends{axis.points[0]};
+   for (std::size_t k = 0; k < axis.cells.size(); ++k)
+   {
+      const int n = axis.cells[k];
+      double sum = 0, step = 1;
+      std::vector<double> shares;
+      for (int i = 0; i < n; ++i, step *= axis.growth[k]) { shares.push_back(sum += step); }
+      for (int i = 0; i < n; ++i)
+      {
+         const double share = shares[i] / sum;
+         // The last one is the point itself.
+         ends.push_back(i + 1 == n
+                           ? axis.points[k + 1]
+                           : axis.points[k] + share * (axis.points[k + 1] - axis.points[k]));
+      }
+   }
+   return ends;
+}
+
+mfem::Mesh mesh_of_brick(const JointCase::Body::Brick &brick)
+{
+   std::array<std::vector<double>, 3> ends;
+   std::array<int, 3> cells{};
+   for (int c = 0; c < 3; ++c)
+   {
+      ends[c] = cell_ends(brick.axes[c]);
+      cells[c] = static_cast<int>(ends[c].size()) - 1;
+   }
+   const mfem::Element::Type type = brick.elements == "tetrahedra" ? mfem::Element::TETRAHEDRON
+                                    : brick.elements == "wedges"   ? mfem::Element::WEDGE
+                                                                   : mfem::Element::HEXAHEDRON;
+   mfem::Mesh mesh = mfem::Mesh::MakeCartesian3D(cells[0], cells[1], cells[2], type, cells[0],
+                                                 cells[1], cells[2]);
+   for (int v = 0; v < mesh.GetNV(); ++v)
+   {
+      double *at = mesh.GetVertex(v);
+      for (int c = 0; c < 3; ++c) { at[c] = ends[c][std::lround(at[c])]; }
+   }
+   return mesh;
+}
+
+/// Sides of a brick by their names, with the attributes that MFEM gives them.
+const std::map<std::string, std::vector<int>> brick_sides = {
+   {"bottom", {1}}, {"front", {2}}, {"right", {3}}, {"back", {4}}, {"left", {5}}, {"top", {6}}};
+
+/// A body of the case, before it is condensed.
+struct PartInSpace
+{
+   const JointCase::Body *said = nullptr;
+   ElasticBody *body = nullptr;
+   BodyTerms terms;
+   std::vector<Holding> holdings;
+
+   std::string called() const
+   {
+      return "body " + said->name + (said->mesh.empty() ? "" : " ('" + said->mesh + "')");
+   }
+   template <class Action>
+   auto named(Action action) const
+   {
+      try
+      {
+         return action();
+      }
+      catch (const InputError &error)
+      {
+         throw InputError(called() + ": " + error.what());
+      }
+   }
+   /// Does what holds something; all that was free before is its.
+   template <class Hold>
+   void hold(const std::string &kind, const std::string &name, Hold hold)
+   {
+      const mfem::Array<int> before = body->essential_dofs();
+      hold();
+      const mfem::Array<int> after = body->essential_dofs();
+      Holding made{kind, name, {}};
+      std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                          std::back_inserter(made.dofs));
+      if (!made.dofs.empty()) { holdings.push_back(std::move(made)); }
+   }
+   ContactSurface surface(const JointCase::Side &side) const
+   {
+      require(!side.part.empty(), side.called, " is empty, must name a part of the boundary");
+      return contact_surface(*body, boundary_part(side.called, side.part, terms));
+   }
+};
+
+/// InputError if displacements contradict each other, or supports.
+void check_displacements(const PartInSpace &part)
+{
+   const ElasticBody &body = *part.body;
+   std::vector<Prescribed> all;
+   for (const BodyLoad &load : body.patterns())
+   {
+      if (load.control != Control::displacement) { continue; }
+      const std::vector<int> dofs = body.prescribed_dofs(load.name);
+      all.push_back({load.name, {dofs.begin(), dofs.end()}, &load.values});
+   }
+   if (all.empty()) { return; }
+   std::vector<std::pair<Vector3d, int>> dofs(body.dofs());
+   for (int node = 0; node < body.node_coordinates().Width(); ++node)
+   {
+      for (int c = 0; c < 3; ++c) { dofs[body.true_dof(node, c)] = {body.place(node), c}; }
+   }
+   require_one_displacement(
+      all, part.holdings, [&](int dof) { return dofs[dof].second; },
+      [&](int dof)
+      {
+         const auto &[at, component] = dofs[dof];
+         return told("the node at (", at[0], ", ", at[1], ", ", at[2], ") along ",
+                     "xyz"[component]);
+      });
+}
+
+PartInSpace made_part(Scene &scene, const JointCase &joint, const JointCase::Body &said)
+{
+   PartInSpace part;
+   part.said = &said;
+   part.named(
+      [&]
+      {
+         MeshPart of_solids;
+         of_solids.dimension = 3;
+         mfem::Mesh mesh =
+            said.brick ? mesh_of_brick(*said.brick) : read_mesh(said.mesh, nullptr, of_solids);
+         MeshNames names;
+         if (said.brick) { names.boundary = brick_sides; }
+         else { names = mesh_names(said.mesh, of_solids); }
+         part.terms = {names.boundary, !said.brick, said.expansion};
+         const std::vector<Material> materials = materials_of(said, mesh, names, false);
+         const int order = said.order > 0 ? said.order : joint.order;
+         require(ranks() == 1, "bodies in space are computed on one rank, there are ", ranks(),
+                 ": start the program without mpirun");
+         part.body = &scene.add(std::move(mesh), order, materials, Formulation::space);
+         const std::string support = said.source.called("support"),
+                           load = said.source.called("load");
+         for (const std::string &one : split(said.support, " ;\t\n"))
+         {
+            part.hold("support", one,
+                      [&] { add_supports(*part.body, support, one, part.terms); });
+         }
+         for (const std::string &one : split(said.load, ";\n"))
+         {
+            part.hold("displacement", split(one, " \t")[0],
+                      [&] { add_loads(*part.body, load, one, part.terms); });
+         }
+         check_displacements(part);
+      });
+   return part;
+}
+
+/// The gaps of the nodes of a side to the obstacle.
+Eigen::VectorXd gaps_to(const JointCase::Face &face, const ContactSurface &surface)
+{
+   const JointCase::Face::Solid &solid = *face.solid;
+   try
+   {
+      return std::isnan(solid.radius) ? gaps_to_plane(surface, solid.point, solid.normal)
+                                      : gaps_to_sphere(surface, solid.point, solid.radius);
+   }
+   catch (const InputError &error)
+   {
+      throw InputError(face.source.called("obstacle") + ": " + error.what());
+   }
+}
+
+/// Geometry in a wrong place, or in other units, is not an interference.
+void check_overlaps(const JointCase &joint, const Reduction &reduction)
+{
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      const JointCase::Face &face = joint.faces[k];
+      const InterfaceReport &report = reduction.interfaces[k];
+      for (Index i = 0; i < report.nodes && !face.tied && !face.gap; ++i)
+      {
+         const double overlap = -reduction.problem.gap[report.first + i],
+                      most = 0.1 * report.spacing[i];
+         const Vector3d at = report.places.row(i);
+         require(overlap <= most, face.source.called(face.solid ? "obstacle" : "between"),
+                 ": the sides overlap by ", overlap, " at (", at[0], ", ", at[1], ", ", at[2],
+                 "), at most ", most,
+                 " is allowed, a tenth of the distance of nodes: move one of them, or give the "
+                 "key 'gap'");
+      }
+   }
+}
+
+void set_laws(const JointCase &joint, Reduction &reduction)
+{
+   ReducedProblem &problem = reduction.problem;
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      const JointCase::Face &face = joint.faces[k];
+      const InterfaceReport &report = reduction.interfaces[k];
+      for (Index i = 0; i < report.nodes && !face.tied; ++i)
+      {
+         const Vector3d at = report.places.row(i);
+         const double f = problem.friction[report.first + i] = face.friction.at(at);
+         require(std::isfinite(f) && f >= 0, face.source.called("friction"), " is ", f, " at (",
+                 at[0], ", ", at[1], ", ", at[2], "), must be finite and not negative");
+      }
+   }
+}
+
+/// Loads that move rigid obstacles, and obstacles that are free to move along axes.
+void move_obstacles_in_space(Reduction &reduction, const JointCase &joint)
+{
+   const auto motion = [](std::size_t face, const Vector3d &along)
+   {
+      ObstacleMotion made;
+      made.interface = face;
+      made.ux = along[0];
+      made.uy = along[1];
+      made.uz = along[2];
+      return made;
+   };
+   std::map<std::string, std::vector<ObstacleMotion>> loads;
+   std::vector<Reduction::FreeMotion> free;
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      const JointCase::Face &face = joint.faces[k];
+      for (const JointCase::Motion &one : face.motions)
+      {
+         loads[one.load].push_back(motion(k, one.along));
+      }
+      for (int c = 0; face.moves && c < 3; ++c)
+      {
+         const Guide::Along &along = (*face.moves)[c];
+         const Vector3d way = Vector3d::Unit(c);
+         if (along.motion == Guide::Motion::held) { continue; }
+         if (along.motion == Guide::Motion::displacement)
+         {
+            loads[along.load].push_back(motion(k, along.value * way));
+         }
+         else { free.push_back({along.load, along.value, {motion(k, way)}}); }
+      }
+   }
+   if (!free.empty()) { reduction.free_obstacles(free); }
+   for (const auto &[load, motions] : loads) { reduction.add_obstacle_motion(load, motions); }
+}
+
+} // namespace
+
+BodiesInSpace make_bodies_in_space(const JointCase &joint)
+{
+   BodiesInSpace own;
+   std::vector<PartInSpace> parts;
+   for (const JointCase::Body &said : joint.bodies)
+   {
+      parts.push_back(made_part(own.scene, joint, said));
+   }
+   std::vector<std::vector<ContactSurface>> of_body(parts.size());
+   std::vector<Interface> interfaces;
+   for (const JointCase::Face &face : joint.faces)
+   {
+      Interface made;
+      made.name = face.name;
+      made.slave = face.slave;
+      made.tied = face.tied;
+      for (const int s : {0, 1})
+      {
+         const JointCase::Side &side = face.sides[s];
+         if (side.body < 0) { continue; }
+         InterfaceSide &own_side = s == 0 ? made.first : made.second;
+         own_side.body = side.body;
+         own_side.surface =
+            parts[side.body].named([&] { return parts[side.body].surface(side); });
+         of_body[side.body].push_back(own_side.surface);
+      }
+      if (face.solid) { made.node_gaps = gaps_to(face, made.first.surface); }
+      if (face.gap)
+      {
+         made.gap = [gap = *face.gap](double x, double y, double z)
+         { return gap.at(Vector3d(x, y, z)); };
+      }
+      interfaces.push_back(std::move(made));
+   }
+   std::vector<CondensedBody> condensed;
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      require(!of_body[b].empty(), "body ", joint.bodies[b].name,
+              " is in no interface, so nothing touches it: name an interface for it, or leave "
+              "it out");
+      const ContactSurface surface =
+         of_body[b].size() == 1 ? of_body[b][0] : joined(of_body[b]);
+      // The last with a factor that this one's could be.
+      const CondensedBody *alike = nullptr;
+      for (const CondensedBody &before : condensed)
+      {
+         if (before.surface.size() == surface.size()) { alike = &before; }
+      }
+      condensed.push_back(
+         parts[b].named([&] { return condense(*parts[b].body, surface, alike); }));
+      condensed.back().name = joint.bodies[b].name;
+      own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
+      own.holdings.push_back(parts[b].holdings);
+   }
+   own.scene.reduction = reduce(std::move(condensed), interfaces);
+   check_overlaps(joint, own.scene.reduction);
+   set_laws(joint, own.scene.reduction);
+   move_obstacles_in_space(own.scene.reduction, joint);
+   return own;
+}
+
+void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
+                      const std::string &paraview)
+{
+   require(!study.options().says("check"),
+           "option --check shows plane bodies: leave it out of a case in space");
+   BodiesInSpace own = make_bodies_in_space(joint);
+   Reduction &reduction = own.scene.reduction;
+   ReducedProblem &problem = reduction.problem;
+   require(!problem.patterns.empty(), "there is no load: key 'load' of a body must name one");
+   require(problem.nodes() > 0,
+           "all interfaces are tied, so nothing can open or slip: one at least must not have "
+           "the key tied");
+   history.go_with = joint.go_with;
+   history.begin(problem);
+   study.counters += reduction.counters;
+   study.condensed(problem, own.scene.dofs);
+   study.value("condensation_error_estimate", own.accuracy);
+   if (study.verbose())
+   {
+      study.say(text("   gap %g to %g; relative error of the condensed stiffness: %.2g "
+                     "(estimate)",
+                     problem.gap.minCoeff(), problem.gap.maxCoeff(), own.accuracy));
+   }
+   warn_of_accuracy(own.accuracy);
+   ReportInSpace report(study, joint, own);
+   if (history.state.time > 0) { report.note(history.state, 0); }
+   std::optional<ReductionFields> fields;
+   if (!paraview.empty())
+   {
+      study.begins(paraview, true);
+      study.begins(paraview + "/contact", true);
+      for (const CondensedBody &body : reduction.bodies)
+      {
+         study.begins(paraview + "/" + body.name, true);
+      }
+      fields.emplace(own.scene.fields(paraview));
+   }
+   const Counters &spent = reduction.counters;
+   int frames = 0;
+   history.march(problem,
+                 [&](const ContactState &reached, bool frame)
+                 {
+                    report.note(reached, history.cycle);
+                    if (!fields || !frame) { return; }
+                    study.counters -= spent; // what the frame costs is added
+                    fields->write(reached);
+                    study.counters += spent;
+                    ++frames;
+                 });
+   study.save(problem);
+   if (fields) { study.say(text("%d frames in %s", frames, paraview.c_str())); }
+   history.report_state(problem, report.of_state(history.state));
+   report.report(history.state, history.report);
+   history.report_march(problem);
+}
+
+} // namespace miniapp

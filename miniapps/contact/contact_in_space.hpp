@@ -1,0 +1,26 @@
+#pragma once
+
+#include "contact/own_bodies.hpp"
+
+namespace miniapp
+{
+
+class OwnHistory;
+
+/// What a case of bodies in space is reduced to.
+struct BodiesInSpace
+{
+   Scene scene;
+   double accuracy = 0; ///< estimated relative error of the stiffness, the worst
+   std::vector<std::vector<Holding>> holdings; ///< of each body
+};
+
+/// InputError naming body and key.
+BodiesInSpace make_bodies_in_space(const JointCase &joint);
+
+/** Marches a case of bodies in space and reports it. `history` has its options, `paraview` is a
+    folder or empty. InputError as of the parts. */
+void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
+                      const std::string &paraview);
+
+} // namespace miniapp

@@ -1,0 +1,444 @@
+#include "contact/report_in_space.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cattaneo/elastic/views.hpp>
+#include <cattaneo/readout/areas.hpp>
+#include <cmath>
+#include <map>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixX3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using nlohmann::ordered_json;
+
+ReportInSpace::ReportInSpace(Study &study, const JointCase &joint, BodiesInSpace &own)
+   : study_(study), joint_(joint), own_(own), reduction_(own.scene.reduction),
+     courses_(reduction_.interfaces.size())
+{
+}
+
+std::string ReportInSpace::first_body(const InterfaceReport &face) const
+{
+   return reduction_.bodies[face.bodies[face.of_second]].name;
+}
+
+MatrixX3d ReportInSpace::tangential(const InterfaceReport &face,
+                                    const VectorXd &components) const
+{
+   const Index n = components.size() / 2;
+   MatrixX3d made(face.nodes, 3);
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      made.row(i) = components[face.first + i] * face.frames.row(i).segment<3>(0) +
+                    components[n + face.first + i] * face.frames.row(i).segment<3>(3);
+   }
+   return face.of_second ? MatrixX3d(-made) : made;
+}
+
+ReportInSpace::Sum ReportInSpace::sum(const InterfaceReport &face,
+                                      const ContactState &state) const
+{
+   VectorXd q = state.q, p = state.p;
+   if (face.tied)
+   {
+      const VectorXd all = reduction_.tied_forces(state.v, state.w, state.multipliers);
+      q = all.head(all.size() / 3 * 2);
+      p = all.tail(all.size() / 3);
+   }
+   if (q.size() == 0) { q = VectorXd::Zero(2 * p.size()); }
+   const MatrixX3d shear = tangential(face, q);
+   Sum made;
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      const double bears = p[face.first + i];
+      const Vector3d normal =
+         (face.of_second ? -bears : bears) * face.frames.row(i).segment<3>(6).transpose();
+      made.normal += bears;
+      made.shear += shear.row(i);
+      made.force += normal + shear.row(i).transpose();
+      made.size += std::hypot(bears, shear.row(i).norm());
+   }
+   for (int c = 0; c < 3; ++c)
+   {
+      made.shear[c] = settled(made.shear[c], made.size);
+      made.force[c] = settled(made.force[c], made.size);
+   }
+   return made;
+}
+
+void ReportInSpace::note(const ContactState &state, int)
+{
+   if (state.q.size() == 0) { return; }
+   for (std::size_t k = 0; k < courses_.size(); ++k)
+   {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      if (face.tied) { continue; }
+      Course &course = courses_[k];
+      const MatrixX3d slip = tangential(face, state.v);
+      if (course.slip.size() == 2 * most_drawn)
+      {
+         for (std::vector<Vector3d> *all : {&course.slip, &course.shear})
+         {
+            all->erase(all->begin(), all->begin() + most_drawn);
+         }
+      }
+      course.slip.emplace_back(slip.transpose() * face.weights / face.weights.sum());
+      course.shear.emplace_back(sum(face, state).shear);
+   }
+}
+
+std::string ReportInSpace::of_state(const ContactState &state)
+{
+   if (reduction_.interfaces.size() > 1)
+   {
+      return text("%zu interfaces of %zu bodies", reduction_.interfaces.size(),
+                  reduction_.bodies.size());
+   }
+   const InterfaceReport &face = reduction_.interfaces[0];
+   const Vector3d force = sum(face, state).force;
+   study_.results["contact_force"] = {force[0], force[1], force[2]};
+   return "contact force on " + first_body(face) +
+          text(" (%g, %g, %g)", force[0], force[1], force[2]) + study_.units.total(0);
+}
+
+void ReportInSpace::report(const ContactState &state, const MarchReport &march)
+{
+   report_interfaces(state, march);
+   report_cycles(march);
+   report_reactions(state);
+   draw_loops();
+   draw_maps(state);
+}
+
+void ReportInSpace::report_interfaces(const ContactState &state, const MarchReport &march)
+{
+   const Units &u = study_.units;
+   ResultTable &table =
+      study_.table("interfaces", {{"interface", "interface"},
+                                  {"on", "forces on"},
+                                  {"normal", "N (pressing)" + u.of(1, 0), "%.6g"},
+                                  {"tangential", "T" + u.of(1, 0), "%.6g"},
+                                  {"force_x", "x" + u.of(1, 0), "%.6g"},
+                                  {"force_y", "y" + u.of(1, 0), "%.6g"},
+                                  {"force_z", "z" + u.of(1, 0), "%.6g"},
+                                  {"dissipation", "lost a cycle" + u.of(1, 1), "%.4e"},
+                                  {"stick", "stick" + u.of(0, 2), "%.4g"},
+                                  {"slip", "slip" + u.of(0, 2), "%.4g"},
+                                  {"separation", "open (area)" + u.of(0, 2), "%.4g"},
+                                  {"tied"},
+                                  {"nodes"}});
+   const std::vector<NodeState> states = settled_states(reduction_.problem, state);
+   const CycleRecord *cycle = march.cycles.empty() ? nullptr : &march.cycles.back();
+   for (const InterfaceReport &face : reduction_.interfaces)
+   {
+      const Sum found = sum(face, state);
+      const bool known = cycle && cycle->whole && !face.tied;
+      const double lost =
+         known ? cycle->node_dissipation.segment(face.first, face.nodes).sum() : none;
+      std::array<double, 3> areas = {0, 0, 0}; // of stick, slip and separation
+      for (Index i = 0; i < face.nodes && !face.tied; ++i)
+      {
+         const NodeState one = states[face.first + i];
+         areas[!closed(one) ? 2 : slips(one) ? 1 : 0] += face.weights[i];
+      }
+      if (face.tied) { areas.fill(none); }
+      study_.row(table, {face.name, first_body(face), found.normal, found.shear.norm(),
+                         found.force[0], found.force[1], found.force[2], lost, areas[0],
+                         areas[1], areas[2], face.tied, face.nodes});
+   }
+}
+
+void ReportInSpace::report_cycles(const MarchReport &march)
+{
+   ResultTable &table = study_.table(
+      "interface_cycles", {{"cycle", "cycle"},
+                           {"interface", "interface"},
+                           {"dissipation", "dissipation" + study_.units.of(1, 1), "%.4e"}});
+   table.quiet(!study_.verbose());
+   for (const ordered_json &row : study_.rows_before(table.name()))
+   {
+      study_.row(table, table.values(row));
+   }
+   for (const CycleRecord &cycle : march.cycles)
+   {
+      for (const InterfaceReport &face : reduction_.interfaces)
+      {
+         if (face.tied || !cycle.whole) { continue; }
+         study_.row(table, {cycle.cycle, face.name,
+                            cycle.node_dissipation.segment(face.first, face.nodes).sum()});
+      }
+   }
+}
+
+/// Forces of supports and prescribed displacements on each body are K u less its loads and the
+/// contact forces on its nodes. With the loads and the contact they are in balance.
+void ReportInSpace::report_reactions(const ContactState &state)
+{
+   const Units &u = study_.units;
+   ResultTable &table = study_.table("reactions", {{"body", "forces on"},
+                                                   {"kind", "by"},
+                                                   {"name", "called"},
+                                                   {"force_x", "x" + u.of(1, 0), "%.6g"},
+                                                   {"force_y", "y" + u.of(1, 0), "%.6g"},
+                                                   {"force_z", "z" + u.of(1, 0), "%.6g"}}),
+               &balance = study_.table(
+                  "balance",
+                  {{"body", "body"},
+                   {"imbalance", "imbalance of forces and moments over the largest force",
+                    "%.1e"}});
+   balance.quiet(!study_.verbose());
+   Reduction &reduction = own_.scene.reduction;
+   const VectorXd tied = reduction.tied_forces(state.v, state.w, state.multipliers);
+   double worst = 0;
+   for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
+   {
+      const auto number = static_cast<int>(b);
+      const ElasticBody &body = *own_.scene.bodies[b];
+      const VectorXd field =
+         reduction.displacement(number, state.v, state.w, state.multipliers);
+      mfem::Vector product(body.dofs());
+      body.stiffness().Mult(to_mfem(field), product);
+      VectorXd rest = view(product);
+      std::vector<Vector3d> places(body.dofs());
+      std::vector<int> components(body.dofs());
+      for (int node = 0; node < body.node_coordinates().Width(); ++node)
+      {
+         for (int c = 0; c < 3; ++c)
+         {
+            places[body.true_dof(node, c)] = body.place(node);
+            components[body.true_dof(node, c)] = c;
+         }
+      }
+      const Vector3d about = body.box().center();
+      const double arm = body.box().diagonal().norm();
+      // All forces that act on the body, and their moments.
+      Vector3d force = Vector3d::Zero(), moment = force;
+      double largest = 0;
+      const auto add = [&](const Vector3d &place, const Vector3d &one)
+      {
+         force += one;
+         moment += (place - about).cross(one);
+         largest = std::max(largest, one.norm());
+      };
+      for (const BodyLoad &load : body.patterns())
+      {
+         if (load.control != Control::force) { continue; }
+         const double factor = state.multipliers[reduction.problem.pattern(load.name)];
+         rest -= factor * load.values;
+         for (int dof = 0; dof < body.dofs(); ++dof)
+         {
+            if (load.values[dof] == 0) { continue; }
+            add(places[dof], factor * load.values[dof] * Vector3d::Unit(components[dof]));
+         }
+      }
+      const Eigen::MatrixXd contact = reduction.contact_forces(number, state.q, state.p, tied);
+      const ContactSurface &surface = reduction.bodies[b].surface;
+      for (Index i = 0; i < surface.size(); ++i)
+      {
+         const Vector3d one = contact.row(i);
+         for (int c = 0; c < 3; ++c) { rest[surface.nodes[i].dofs[c]] -= one[c]; }
+         add(surface.nodes[i].position, one);
+      }
+      for (const Holding &holding : own_.holdings[b])
+      {
+         Vector3d sum = Vector3d::Zero();
+         double size = 0;
+         for (const int dof : holding.dofs)
+         {
+            const Vector3d one = rest[dof] * Vector3d::Unit(components[dof]);
+            sum += one;
+            size += one.norm();
+            add(places[dof], one);
+         }
+         for (double &x : sum) { x = settled(x, size); }
+         study_.row(table, {reduction.bodies[b].name, holding.kind, holding.name, sum[0],
+                            sum[1], sum[2]});
+      }
+      const double imbalance =
+         largest > 0 ? std::max(force.norm(), moment.norm() / arm) / largest : 0;
+      worst = std::max(worst, imbalance);
+      study_.row(balance, {reduction.bodies[b].name, imbalance});
+   }
+   study_.say(
+      text("\nEach body is in balance to %.1e of the largest force on a node of it", worst));
+}
+
+namespace
+{
+
+/// A direction as a reader knows it: x, y or z, or its components.
+std::string direction_name(const Vector3d &way)
+{
+   for (int c = 0; c < 3; ++c)
+   {
+      if (std::abs(std::abs(way[c]) - 1) < 1e-9) { return {"xyz"[c]}; }
+   }
+   return text("(%.3g, %.3g, %.3g)", way[0], way[1], way[2]);
+}
+
+/// The direction or its opposite, whose largest component is positive.
+Vector3d upright(const Vector3d &way)
+{
+   Index largest = 0;
+   way.cwiseAbs().maxCoeff(&largest);
+   return way[largest] < 0 ? Vector3d(-way) : way;
+}
+
+/// The direction in which vectors differ most.
+Vector3d widest(const std::vector<Vector3d> &all)
+{
+   Vector3d mean = Vector3d::Zero();
+   for (const Vector3d &one : all) { mean += one / static_cast<double>(all.size()); }
+   Matrix3d spread = Matrix3d::Zero();
+   for (const Vector3d &one : all) { spread += (one - mean) * (one - mean).transpose(); }
+   return upright(Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvectors().col(2));
+}
+
+} // namespace
+
+void ReportInSpace::draw_loops()
+{
+   Panel &panel =
+      study_.lines("interface_loops", "Shear force of each interface over its mean slip",
+                   "mean slip" + study_.units.of(0, 1), "-T" + study_.units.of(1, 0));
+   for (std::size_t k = 0; k < courses_.size(); ++k)
+   {
+      const Course &course = courses_[k];
+      if (course.slip.empty()) { continue; }
+      const Vector3d way = widest(course.shear);
+      std::vector<double> slip, shear;
+      for (std::size_t i = 0; i < course.slip.size(); ++i)
+      {
+         slip.push_back(course.slip[i].dot(way));
+         shear.push_back(-course.shear[i].dot(way));
+      }
+      panel.add(reduction_.interfaces[k].name + ", along " + direction_name(way), slip, shear);
+   }
+}
+
+namespace
+{
+
+/// Triangles of a face, by positions of its nodes.
+std::vector<std::array<int, 3>> triangles_of(std::size_t nodes)
+{
+   switch (nodes)
+   {
+   case 3:
+      return {{0, 1, 2}};
+   case 4:
+      return {{0, 1, 2}, {0, 2, 3}};
+   case 6:
+      return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+   default:
+      // The middle of the face is the last node.
+      return {{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8},
+              {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}};
+   }
+}
+
+} // namespace
+
+void ReportInSpace::draw_maps(const ContactState &state)
+{
+   const ReducedProblem &problem = reduction_.problem;
+   const std::vector<NodeState> states = settled_states(problem, state);
+   const VectorXd p = tractions(problem, state.p);
+   for (const InterfaceReport &face : reduction_.interfaces)
+   {
+      if (face.tied) { continue; }
+      // Where each node of the body is in the interface.
+      const int owner = face.bodies[0];
+      std::map<int, Index> row_of;
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         row_of[problem.dofs(face.first + i, 3 * owner)] = i;
+      }
+      const ContactSurface &surface = reduction_.bodies[owner].surface;
+      std::vector<std::array<Index, 3>> triangles;
+      for (const std::vector<Index> &nodes : surface.faces)
+      {
+         std::vector<Index> rows;
+         for (const Index node : nodes)
+         {
+            const auto found = row_of.find(surface.nodes[node].dofs[0]);
+            if (found != row_of.end()) { rows.push_back(found->second); }
+         }
+         if (rows.size() != nodes.size()) { continue; }
+         for (const auto &[a, b, c] : triangles_of(rows.size()))
+         {
+            triangles.push_back({rows[a], rows[b], rows[c]});
+         }
+      }
+      // Axes in the surface, along the axes of space where these lie in it.
+      const Vector3d normal =
+         (face.frames.rightCols(3).transpose() * face.weights).normalized();
+      const Matrix3d frame = frame_of(normal);
+      const Vector3d across = upright(frame.row(0)), up = upright(frame.row(1));
+      const auto flat = [&](const Vector3d &x) { return Vector2d(across.dot(x), up.dot(x)); };
+      // The part in contact is shown, with a margin.
+      Eigen::AlignedBox2d shown;
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         const Vector2d at = flat(face.places.row(i)), edge(face.spacing[i], face.spacing[i]);
+         if (!closed(states[face.first + i])) { continue; }
+         shown.extend(at - 2 * edge);
+         shown.extend(at + 2 * edge);
+      }
+      const std::string several = reduction_.interfaces.size() > 1 ? " of " + face.name : "",
+                        end = reduction_.interfaces.size() > 1 ? "_" + face.name : "";
+      const auto panel = [&](const std::string &name, const std::string &title) -> Panel &
+      {
+         const std::string unit = study_.units.of(0, 1);
+         Panel &made = study_.panel(Panel::Kind::map, name + end, title + several,
+                                    direction_name(across) + unit, direction_name(up) + unit);
+         for (const int c : {0, 1})
+         {
+            if (!shown.isEmpty()) { made.limit(c ? "y" : "x", shown.min()[c], shown.max()[c]); }
+         }
+         return made;
+      };
+      const auto draw = [&](Panel &into, const VectorXd &values, const MatrixX3d *arrows)
+      {
+         for (const auto &triangle : triangles)
+         {
+            for (const Index i : triangle)
+            {
+               const NodeState one = states[face.first + i];
+               into.corner(flat(face.places.row(i)), values[i], closed(one),
+                           one == NodeState::stick);
+            }
+         }
+         for (Index i = 0; arrows && i < face.nodes; ++i)
+         {
+            if (values[i] > 0) { into.arrow(flat(face.places.row(i)), flat(arrows->row(i))); }
+         }
+      };
+      draw(panel("pressure", "Pressure" + study_.units.of(1, -2)),
+           p.segment(face.first, face.nodes), nullptr);
+      if (state.q.size() == 0) { continue; }
+      const MatrixX3d shear = tangential(face, tractions(problem, state.q)),
+                      moved = tangential(face, state.v);
+      // Nodes that are open do not slip.
+      MatrixX3d slip = moved;
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         if (!closed(states[face.first + i])) { slip.row(i).setZero(); }
+      }
+      draw(panel("shear", "Shear on " + first_body(face) + study_.units.of(1, -2)),
+           shear.rowwise().norm(), &shear);
+      draw(panel("slip", "Slip of " + first_body(face) + study_.units.of(0, 1)),
+           slip.rowwise().norm(), &slip);
+   }
+}
+
+} // namespace miniapp

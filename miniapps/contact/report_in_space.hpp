@@ -1,0 +1,57 @@
+#pragma once
+
+#include "common/study.hpp"
+#include "contact/contact_in_space.hpp"
+
+#include <cattaneo/friction/march.hpp>
+
+namespace miniapp
+{
+
+/// What is said of a case in space: resultants and areas of its interfaces, losses, loops,
+/// reactions, and maps of the last state.
+class ReportInSpace
+{
+public:
+   /// All must outlive it.
+   ReportInSpace(Study &study, const JointCase &joint, BodiesInSpace &own);
+   /// A state that the march has reached, in this cycle (0: in none).
+   void note(const cattaneo::ContactState &state, int cycle);
+   /// Forces of the contact on the first body, of a case with one interface; also in the
+   /// results.
+   std::string of_state(const cattaneo::ContactState &state);
+   /// Tables, loops and maps, at the end.
+   void report(const cattaneo::ContactState &state, const cattaneo::MarchReport &march);
+
+private:
+   /// Of an interface: the sum of its normal forces, and its force on the first side.
+   struct Sum
+   {
+      double normal = 0, size = 0;
+      Eigen::Vector3d force{0, 0, 0}, shear{0, 0, 0};
+   };
+   Sum sum(const cattaneo::InterfaceReport &face, const cattaneo::ContactState &state) const;
+   /// Tangential vectors (n × 3) of the nodes of an interface, of two components each.
+   Eigen::MatrixX3d tangential(const cattaneo::InterfaceReport &face,
+                               const Eigen::VectorXd &components) const;
+   std::string first_body(const cattaneo::InterfaceReport &face) const;
+   void report_interfaces(const cattaneo::ContactState &state,
+                          const cattaneo::MarchReport &march);
+   void report_cycles(const cattaneo::MarchReport &march);
+   void report_reactions(const cattaneo::ContactState &state);
+   void draw_loops();
+   void draw_maps(const cattaneo::ContactState &state);
+
+   Study &study_;
+   const JointCase &joint_;
+   BodiesInSpace &own_;
+   const cattaneo::Reduction &reduction_;
+   /// Mean slip of an interface, and the shear that resists it.
+   struct Course
+   {
+      std::vector<Eigen::Vector3d> slip, shear; ///< as far as a picture can show
+   };
+   std::vector<Course> courses_;
+};
+
+} // namespace miniapp

@@ -1,0 +1,311 @@
+"""Cases of bodies in space: blocks, meshes of solids, obstacles, histories, and mistakes."""
+
+import json
+import math
+
+import pytest
+
+from programs import alike, even, near, near_all, near_relative, rectangle, shipped
+
+
+def axis(points, cells, **more):
+    return {"points": points, "cells": cells if isinstance(cells, list) else [cells], **more}
+
+
+def brick(x, y, z, elements="hexahedra"):
+    return {"x": axis(*x), "y": axis(*y), "z": axis(*z), "elements": elements}
+
+
+def block(load="P pressure top 1", friction=0.3, **keys):
+    """A block of E = 1, ν = 0.3 on a rigid plane."""
+    return {"analysis": "space", "order": 1,
+            "bodies": {"block": {"block": brick(([0, 2], 4), ([0, 1], 2), ([0, 1], 2)), "young": 1, "poisson": 0.3, "load": load, **keys}},
+            "interfaces": {"floor": {"between": "block:bottom", "friction": friction,
+                                     "obstacle": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}}}}
+
+
+def solid(cells, size, elements):
+    """Nodes and boundary faces of a brick of hexahedra or tetrahedra, by side: 1 below, 6 above, 2 the others."""
+    nx, ny, nz = cells
+    number = {}
+    for k in range(nz + 1):
+        for j in range(ny + 1):
+            for i in range(nx + 1):
+                number[i, j, k] = len(number)
+    nodes = [[i * size[0] / nx, j * size[1] / ny, k * size[2] / nz] for i, j, k in number]
+    solids, faces = [], []
+    for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                h = [number[i + a, j + b, k + c] for a, b, c in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]
+                quads = [(k == 0, 1, (0, 3, 2, 1)), (k == nz - 1, 6, (4, 5, 6, 7)), (j == 0, 2, (0, 1, 5, 4)), (i == nx - 1, 2, (1, 2, 6, 5)),
+                         (j == ny - 1, 2, (2, 3, 7, 6)), (i == 0, 2, (3, 0, 4, 7))]
+                if elements == "hexahedra":
+                    solids.append(h)
+                    faces += [(side, [h[a] for a in face]) for outer, side, face in quads if outer]
+                    continue
+                tets = [[h[0], h[s], h[t], h[6]] for s, t in ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1))]
+                solids += tets
+                triangles = [sorted(tet[:m] + tet[m + 1:]) for tet in tets for m in range(4)]
+                for outer, side, face in quads:
+                    own = {h[a] for a in face}
+                    faces += [(side, triangle) for triangle in triangles if outer and set(triangle) <= own]
+    return nodes, solids, faces
+
+
+def mfem_text(nodes, solids, faces):
+    kind, flat = {8: (5, 3), 4: (4, 2)}[len(solids[0])]
+    lines = ["MFEM mesh v1.0", "", "dimension", "3", "", "elements", str(len(solids)), *(f"1 {kind} " + " ".join(map(str, s)) for s in solids), "",
+             "boundary", str(len(faces)), *(f"{side} {flat} " + " ".join(map(str, f)) for side, f in faces), "", "vertices", str(len(nodes)), "3",
+             *(" ".join(map(repr, at)) for at in nodes), ""]
+    return "\n".join(lines)
+
+
+def gmsh_text(nodes, solids, faces, version):
+    kind, flat = {8: (5, 3), 4: (4, 2)}[len(solids[0])]
+    names = ["$PhysicalNames", "4", '2 1 "low"', '2 6 "high"', '2 2 "sides"', '3 7 "all of it"', "$EndPhysicalNames"]
+    head = ["$MeshFormat", f"{version} 0 8", "$EndMeshFormat", *names]
+    if version == "2.2":
+        rows = [(flat, side, f) for side, f in faces] + [(kind, 7, s) for s in solids]
+        return "\n".join([*head, "$Nodes", str(len(nodes)), *(f"{k} " + " ".join(map(repr, at)) for k, at in enumerate(nodes, 1)), "$EndNodes",
+                          "$Elements", str(len(rows)),
+                          *(f"{k} {t} 2 {g} {g} " + " ".join(str(n + 1) for n in own) for k, (t, g, own) in enumerate(rows, 1)), "$EndElements", ""])
+    sides = sorted({side for side, _ in faces})
+    entities = [f"0 0 {len(sides)} 1", *(f"{s} 0 0 0 1 1 1 1 {s} 0" for s in sides), "1 0 0 0 1 1 1 1 7 0"]
+    numbers = [str(k) for k in range(1, len(nodes) + 1)]
+    lines, count = [], 0
+    for dimension, entity, t, rows in [(2, s, flat, [f for side, f in faces if side == s]) for s in sides] + [(3, 1, kind, solids)]:
+        lines.append(f"{dimension} {entity} {t} {len(rows)}")
+        for own in rows:
+            count += 1
+            lines.append(f"{count} " + " ".join(str(n + 1) for n in own))
+    return "\n".join([*head, "$Entities", *entities, "$EndEntities", "$Nodes", f"1 {len(nodes)} 1 {len(nodes)}", f"3 1 0 {len(nodes)}", *numbers,
+                      *(" ".join(map(repr, at)) for at in nodes), "$EndNodes", "$Elements", f"{len(sides) + 1} {count} 1 {count}", *lines,
+                      "$EndElements", ""])
+
+
+def test_an_extruded_problem_is_the_plane_one(run):
+    """A block is pressed on another one and sheared to and fro: in plane strain, and between walls as a slice of hexahedra.
+    Nothing opens, so that both marches take the same increments."""
+    thick, history = 0.7, ["P=0", "P=1", "Q=0.1", "Q=-0.1", "Q=0.1"]
+    for name, low, high in (("upper", 0, 2), ("lower", -1, 0)):
+        run.write(name + ".mesh", rectangle(even(0, 3, 6), even(low, high, 3), lambda x, y: (x, y)))
+    march = {"history": history, "cycle-start": 2, "cycles": 1, "stepping": "fixed", "increments": 10, "order": 1}
+    plane = run.case({"bodies": {"upper": {"mesh": str(run.folder / "upper.mesh"), "young": 2, "poisson": 0.3, "load": "P pressure 3 1; Q traction 3 1 0"},
+                                 "lower": {"mesh": str(run.folder / "lower.mesh"), "young": 5, "poisson": 0.2, "support": "1:xy"}},
+                      "interfaces": {"face": {"between": ["upper:1", "lower:3"], "friction": 0.15}}, **march}, "--csv", run.folder / "plane")
+    for layers in (1, 2):
+        def slab(low, high):
+            return brick(([0, 3], 6), ([low, high], 3), ([0, thick], layers))
+        space = run.case({"analysis": "space", **march,
+                          "bodies": {"upper": {"block": slab(0, 2), "young": 2, "poisson": 0.3, "support": "bottom:z top:z",
+                                               "load": "P pressure back 1; Q traction back 1 0 0"},
+                                     "lower": {"block": slab(-1, 0), "young": 5, "poisson": 0.2, "support": "front:xyz bottom:z top:z"}},
+                          "interfaces": {"face": {"between": ["upper:front", "lower:back"], "friction": 0.15}}}, "--csv", run.folder / "space")
+        one, other = plane.interface("face"), space.interface("face")
+        near(other["force_x"], thick * one["force_x"], 1e-10)
+        near(other["force_y"], thick * one["force_y"], 1e-10)
+        flat, deep = run.columns("plane_history.csv"), run.columns("space_history.csv")
+        assert max(flat["forward_slip"]) > 0 and max(flat["stick"]) > 0
+        for load in ("P", "Q"):
+            courses = []
+            for table in (flat, deep):
+                key = next(key for key in table if key.startswith("displacement") and key.endswith(load))
+                courses.append([x / max(map(abs, table[key])) for x in table[key]])
+            alike(*courses, 1e-9)
+        near_relative(space["peak_pressure"], plane["peak_pressure"], 1e-9)
+        # Walls bear what plane strain does; each body is in balance.
+        assert {row["name"] for row in space["reactions"] if row["body"] == "upper"} == {"bottom:z", "top:z"}
+        near_all([row["imbalance"] for row in space["balance"]], 0, 1e-10)
+
+
+def hertz(run, cells):
+    """A quarter of the shipped case without friction, with so many cells across the contact: peak pressure, radius, its error."""
+    case = shipped("sphere_on_block")
+    body = case["bodies"]["block"]
+    body["block"]["y"]["cells"][0], body["block"]["z"]["cells"][1] = cells, cells
+    body["block"]["x"] = body["block"]["y"]
+    body["support"].append("left:x")
+    case["interfaces"]["ball"].update(friction=0, guide={"x": "held", "y": "held", "z": {"force": "P", "value": -1500}})
+    case.update(history=["P=0", "P=1"])
+    for key in ("cycle-start", "cycles"):
+        case.pop(key)
+    got = run.case(case)
+    area = next(row for row in got["areas"] if row["state"] == "contact")
+    near_relative(got.interface("ball")["normal"], 1500, 1e-9)
+    return got["peak_pressure"], math.sqrt(4 * area["area"] / math.pi), area["area_error_estimate"] / area["area"]
+
+
+def test_sphere_on_a_block_is_hertz(run):
+    """Peak pressure and radius of contact are Hertz's on a half-space, to what halving the cells changes."""
+    modulus, radius, force = 210e3 / (1 - 0.3**2), 50, 6000
+    a = (0.75 * force * radius / modulus) ** (1 / 3)
+    peak = 1.5 * force / (math.pi * a**2)
+    coarse, fine = hertz(run, 6), hertz(run, 12)
+    change = abs(fine[0] - coarse[0]) / peak
+    assert change < 0.1
+    # The block is ten radii wide and deep, which changes a by less than (1/10)³.
+    near_relative(fine[0], peak, change + 2e-3)
+    near_relative(fine[1], a, fine[2] / 2 + 1e-3)
+
+
+def test_the_shipped_sphere_slips_in_a_ring(run):
+    case = shipped("sphere_on_block")
+    case["bodies"]["block"]["block"]["x"]["cells"] = [3, 10, 3]
+    case["bodies"]["block"]["block"]["y"]["cells"] = [5, 3]
+    case["bodies"]["block"]["block"]["z"]["cells"] = [3, 4]
+    got = run.case(case, "--csv", run.folder / "ball", "--save", run.folder / "ball.json", "--paraview", run.folder / "fields")
+    row = got.interface("ball")
+    near_relative(row["normal"], 3000, 1e-9)
+    near_relative(abs(row["force_x"]), 600, 1e-9)
+    assert row["stick"] > 0 and row["slip"] > 0 and row["separation"] > 0
+    areas = {part["state"]: part["area"] for part in got["areas"]}
+    near(areas["stick"] + areas["slip"], areas["contact"], 1e-12)
+    # The steady cycle loses energy, which table interfaces has too.
+    assert got["dissipation"][-1] > 0
+    near_relative(row["dissipation"], got["dissipation"][-1], 1e-12)
+    near_all([row["imbalance"] for row in got["balance"]], 0, 1e-9)
+    assert {panel["name"] for panel in got["shown"]["panels"]} >= {"pressure", "shear", "slip", "interface_loops"}
+    nodes = run.columns("ball_nodes.csv")
+    assert {"x", "y", "z", "p", "q1", "q2", "slip1", "slip2"} <= set(nodes)
+    assert max(nodes["p"]) == pytest.approx(got["peak_pressure"])
+    assert "<Polys>" in run.text("fields/contact/contact_0.vtp") and (run.folder / "fields/block/block.pvd").exists()
+    # The reduced file is a problem of the program march.
+    again = run("march", "--reduced", run.folder / "ball.json", "--history", "P=0; P=1; Q=1")
+    assert again["status"] == "converged"
+
+
+def test_a_march_goes_on_from_a_state(run):
+    case = {**block("P pressure top 1; Q traction top 0.2 0.1 0"), "history": ["P=0", "P=1", "Q=1", "Q=-1", "Q=1"], "cycle-start": 2, "cycles": 1}
+    whole = run.case(case, "--save-state", run.folder / "whole")
+    run.case({**case, "history": ["P=0", "P=1", "Q=1"], "cycle-start": -1}, "--save-state", run.folder / "part")
+    rest = run.case(case, "--load-state", run.folder / "part", "--save-state", run.folder / "rest")
+    assert run.text("rest") == run.text("whole")
+    assert rest["total_dissipation"] == whole["total_dissipation"]
+
+
+@pytest.mark.parametrize("elements", ["hexahedra", "tetrahedra"])
+def test_meshes_of_solids(run, elements):
+    """MFEM's format and both of Gmsh's give the same answer, with names of groups too."""
+    made = solid((4, 2, 2), (2, 1, 1), elements)
+    run.write("block.mesh", mfem_text(*made))
+    run.write("two.msh", gmsh_text(*made, "2.2"))
+    run.write("four.msh", gmsh_text(*made, "4.1"))
+    values = []
+    for name, low, high in (("block.mesh", 1, 6), ("two.msh", 1, "high"), ("four.msh", "low", 6)):
+        case = block(f"P pressure {high} 1; Q traction {high} 0.2 0 0")
+        case["bodies"]["block"].update(mesh=str(run.folder / name))
+        del case["bodies"]["block"]["block"]
+        case["interfaces"]["floor"]["between"] = f"block:{low}"
+        case["history"] = ["P=0", "P=1", "Q=1"]
+        values.append(run.case(case))
+        near(values[-1].interface("floor")["normal"], 2, 1e-12)
+        near(values[-1].interface("floor")["force_x"], -0.4, 1e-12)
+    for value in values[1:]:
+        near_relative(value["peak_pressure"], values[0]["peak_pressure"], 1e-10)
+        near_relative(value["total_dissipation"], values[0]["total_dissipation"], 1e-8)
+    if elements == "hexahedra":
+        same = run.case({**block("P pressure top 1; Q traction top 0.2 0 0"), "history": ["P=0", "P=1", "Q=1"]})
+        near_relative(same["peak_pressure"], values[0]["peak_pressure"], 1e-10)
+
+
+def test_stacks_ties_and_moving_planes(run):
+    """Two blocks, of which the lower is tied to a third one, are pressed by a plane that comes down: its reaction is the force."""
+    def one(low, **keys):
+        return {"block": brick(([0, 1], 2), ([0, 1], 2), ([low, low + 1], 2)), "young": 1, "poisson": 0.0, **keys}
+    got = run.case({"analysis": "space", "order": 2, "bodies": {"top": one(2), "middle": one(1), "foot": one(0, support="bottom:xyz")},
+                    "interfaces": {"lid": {"between": "top:top", "friction": 0.2, "motion": {"D": {"z": -0.03}},
+                                           "obstacle": {"plane": {"point": [0, 0, 3], "normal": [0, 0, -1]}}},
+                                   "face": {"between": ["top:bottom", "middle:top"], "friction": 0.5},
+                                   "glue": {"between": ["middle:bottom", "foot:top"], "tied": True}}})
+    for name, sign in (("lid", -1), ("face", 1), ("glue", 1)):
+        near(got.interface(name)["force_z"], sign * 0.01, 1e-12)
+    assert got.interface("glue")["tied"]
+    foot = next(row for row in got["reactions"] if row["body"] == "foot")
+    near(foot["force_z"], 0.01, 1e-12)
+
+
+def without(case, *path):
+    changed = json.loads(json.dumps(case))
+    within = changed
+    for key in path[:-1]:
+        within = within[key]
+    del within[path[-1]]
+    return changed
+
+
+def with_(case, value, *path):
+    changed = json.loads(json.dumps(case))
+    within = changed
+    for key in path[:-1]:
+        within = within[key]
+    within[path[-1]] = value
+    return changed
+
+
+BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
+
+
+@pytest.mark.parametrize("value, path, words", [
+    ([{"on": "top", "z": "held"}], (*BODY, "guides"), ["guides", "not for bodies in space"]),
+    ("block.mtx", (*BODY, "matrix"), ["matrix", "not for bodies in space"]),
+    (2, (*BODY, "thickness"), ["thickness", "not for bodies in space"]),
+    (3, (*BODY, "order"), ["order", "must be 1 or 2"]),
+    ("x.mesh", (*BODY, "mesh"), ["both", "mesh and block"]),
+    ([0, 0], (*BODY, "block", "x", "points"), ["follows 0", "must increase"]),
+    ([1, 2], (*BODY, "block", "x", "cells"), ["2 points", "2 numbers of cells"]),
+    ("cubes", (*BODY, "block", "elements"), ["cubes", "wedges"]),
+    ("lid:xyz", (*BODY, "support"), ["lid", "bottom"]),
+    ("top:xt", (*BODY, "support"), ["xt", "x, y and z"]),
+    ("P traction top 1 0", (*BODY, "load"), ["has 5 words", "tx ty tz"]),
+    ("P displacement-r top 1", (*BODY, "load"), ["displacement-r", "displacement-z"]),
+    ("P pressure top[0<x<0.7] 1", (*BODY, "load"), ["cuts a face", "must end where faces end"]),
+    ({"line": [[0, 0], [1, 0]]}, (*FLOOR, "obstacle"), ["unknown key 'line'", "plane"]),
+    ({"sphere": {"centre": [0, 0, -1], "radius": 0}}, (*FLOOR, "obstacle"), ["radius", "must be positive"]),
+    ({"plane": {"point": [0, 0, 0.5], "normal": [0, 0, 1]}}, (*FLOOR, "obstacle"), ["overlap by 0.5", "obstacle"]),
+    ([[1, 0.3]], (*FLOOR, "strength"), ["strength", "not for bodies in space"]),
+    (0.1, (*FLOOR, "pairing"), ["pairing", "not for bodies in space"]),
+    ("coarser", (*FLOOR, "slave"), ["first or second"]),
+    ([[0, 0.3], [1, 0.4]], (*FLOOR, "friction"), ["function of the place"]),
+    ("x-1", (*FLOOR, "friction"), ["friction", "is -1", "not negative"]),
+    ({"D": {"angle": 1}}, (*FLOOR, "motion"), ["angle", "not for bodies in space"]),
+    ({"z": {"force": "F"}, "rotation": "free"}, (*FLOOR, "guide"), ["rotation", "not for bodies in space"]),
+    ({"tip": [0, 0]}, ("points",), ["points", "not for bodies in space"]),
+    ({"b": {}}, ("bolts",), ["bolts", "not for bodies in space"]),
+    (2, ("thickness",), ["thickness", "not for bodies in space"]),
+    (5, ("order",), ["order", "must be 1 or 2"]),
+    ([1, 2], ("edges",), ["edges", "leave it out"]),
+    ("plane strain", ("analysis",), ["block", "must be space"]),
+])
+def test_mistakes_are_named(run, value, path, words):
+    error = run.refused(with_(block(), value, *path))
+    for word in words:
+        assert word in error, error
+
+
+def test_more_mistakes(run):
+    assert "no obstacle" in run.refused(without(block(), *FLOOR, "obstacle"))
+    assert "--check" in run.refused(block(), "--check")
+    nodes, solids, faces = solid((1, 1, 1), (1, 1, 1), "hexahedra")
+    whole = gmsh_text(nodes, solids, faces, "2.2")
+    for name, text, words in (
+            ("flat.mesh", rectangle(even(0, 1, 1), even(0, 1, 1), lambda x, y: (x, y)), ["dimension 2", "must be 3"]),
+            ("stray.mesh", mfem_text(nodes, solids, [*faces, (3, [0, 1, 2, 6])]), ["no face of an element"]),
+            ("twice.mesh", mfem_text(nodes, solids, [*faces, (3, faces[0][1][::-1])]), ["one face twice"]),
+            ("three.mesh", mfem_text(nodes, solids * 3, faces), ["at most two elements"]),
+            ("bare.mesh", mfem_text(nodes, solids, []), ["no boundary elements"]),
+            ("inside.mesh", mfem_text(nodes, [solids[0][4:] + solids[0][:4]], faces), ["turned inside out"]),
+            ("group.msh", whole.replace(" 5 2 7 7 ", " 5 2 0 7 "), ["of a volume", "no physical group"]),
+            ("eight.msh", whole.replace("$EndElements", "").replace("$Elements\n7", "$Elements\n8") + "8 16 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n",
+             ["order 2", "must be 1"]),
+            ("deck.inp", "*NODE\n", ["deck", "MFEM or Gmsh"])):
+        case = block()
+        case["bodies"]["block"].update(mesh=run.write(name, text))
+        del case["bodies"]["block"]["block"]
+        case["interfaces"]["floor"]["between"] = "block:1"
+        case["bodies"]["block"]["load"] = "P pressure 6 1"
+        error = run.refused(case)
+        for word in words:
+            assert word in error, (name, error)
+    solids_in_the_plane = {"bodies": {"block": {"mesh": run.write("whole.msh", whole), "young": 1, "poisson": 0.3}}, "interfaces": {"f": {"between": "block:1"}}}
+    assert "in space" in run.refused(solids_in_the_plane)
