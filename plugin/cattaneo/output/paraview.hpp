@@ -17,9 +17,9 @@ namespace cattaneo
     open `name`.pvd. Fields: "displacement"; "sigma_xx", "sigma_yy", "sigma_zz", "tau_xy"
     (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
     each element's own material; in space also "tau_yz" and "tau_xz". Axisymmetric: "sigma_rr",
-    "sigma_zz", "sigma_tt" (hoop) and "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz"
-    instead. A body with a user's operator has stresses only after ElasticBody::set_stress(),
-    otherwise only the displacement.
+    "sigma_zz", "sigma_tt" (hoop) and "tau_rz"; a torsion body has "twist", "tau_rt" and
+   "tau_tz" instead. A body with a user's operator has stresses only after
+   ElasticBody::set_stress(), otherwise only the displacement.
 
     The body must outlive this. Nothing is computed or written before write(). */
 class BodyFields
