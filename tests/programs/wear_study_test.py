@@ -13,7 +13,7 @@ CYCLE = "--history 'P=0; P=1; Q=.2; Q=-.2; Q=.2' --cycle-start 2 --cycles 1 "
 def test_options_of_the_pad_are_not_for_a_reduced_problem(run):
     run.line(HERTZ + CYCLE)
     for of_pad in ("--profile flat", "--flat 0.6", "--poisson 0.2", "--nodes 101", "--order 1", "--amplitude 0.2"):
-        assert "of the pad" in run.line(HERTZ + CYCLE + of_pad, code=1).output
+        assert "belongs to the pad" in run.line(HERTZ + CYCLE + of_pad, code=1).output
 
 
 @pytest.mark.parametrize("flat, stick, extent, volume, depth", [
