@@ -386,14 +386,16 @@ void ReportInSpace::draw_maps(const ContactState &state)
       const Vector3d across = upright(frame.row(0)), up = upright(frame.row(1));
       const auto flat = [&](const Vector3d &x) { return Vector2d(across.dot(x), up.dot(x)); };
       // The part in contact is shown, with a margin.
-      Eigen::AlignedBox2d shown;
+      Eigen::AlignedBox2d shown, whole;
       for (Index i = 0; i < face.nodes; ++i)
       {
          const Vector2d at = flat(face.places.row(i)), edge(face.spacing[i], face.spacing[i]);
+         whole.extend(at);
          if (!closed(states[face.first + i])) { continue; }
          shown.extend(at - 2 * edge);
          shown.extend(at + 2 * edge);
       }
+      shown = shown.isEmpty() ? whole : shown.intersection(whole);
       const std::string several = reduction_.interfaces.size() > 1 ? " of " + face.name : "",
                         end = reduction_.interfaces.size() > 1 ? "_" + face.name : "";
       const auto panel = [&](const std::string &name, const std::string &title) -> Panel &
@@ -403,7 +405,7 @@ void ReportInSpace::draw_maps(const ContactState &state)
                                     direction_name(across) + unit, direction_name(up) + unit);
          for (const int c : {0, 1})
          {
-            if (!shown.isEmpty()) { made.limit(c ? "y" : "x", shown.min()[c], shown.max()[c]); }
+            made.limit(c ? "y" : "x", shown.min()[c], shown.max()[c]);
          }
          return made;
       };
@@ -411,6 +413,9 @@ void ReportInSpace::draw_maps(const ContactState &state)
       {
          for (const auto &triangle : triangles)
          {
+            Eigen::AlignedBox2d around;
+            for (const Index i : triangle) { around.extend(flat(face.places.row(i))); }
+            if (!around.intersects(shown)) { continue; }
             for (const Index i : triangle)
             {
                const NodeState one = states[face.first + i];
