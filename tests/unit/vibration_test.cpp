@@ -165,23 +165,28 @@ TEST(Modes, AreThoseOfOneBodyIfAllIsGlued)
 /// A steady loop in which no node slips swings with the frequency of the glued mode.
 TEST(Modes, LoopWithoutSlipHasTheFrequencyOfTheMode)
 {
-   for (const bool held : {true, false})
+   for (const Formulation formulation : {Formulation::plane, Formulation::axisymmetric})
    {
-      Column column(held);
-      const VibratingStructure structure = column.structure();
-      const Modes modes =
-         structure.modes(glued_rows(column.reduction.problem, column.state), 3);
-      const ReducedProblem problem = structure.with_modes(modes);
-      const ContactState state = structure.with_modes(modes, column.state);
-      FrictionSolver solver(problem);
-      for (int k = 0; k < 3; ++k)
+      for (const bool held : {true, false})
       {
-         const ModalLoop loop = modal_loop(
-            solver, problem, state, "mode " + std::to_string(k + 1), modes.omega[k], 1e-9);
-         ASSERT_EQ(loop.status, FrictionStatus::converged) << loop.message;
-         EXPECT_NEAR(loop.omega_secant, modes.omega[k], 1e-6 * modes.omega[k]);
-         EXPECT_NEAR(loop.omega, modes.omega[k], 1e-6 * modes.omega[k]);
-         EXPECT_LT(loop.zeta, 1e-9);
+         SCOPED_TRACE(std::string(name(formulation)) + (held ? ", held" : ", free"));
+         Column column(held, formulation);
+         const VibratingStructure structure = column.structure();
+         const Modes modes =
+            structure.modes(glued_rows(column.reduction.problem, column.state), 3);
+         const ReducedProblem problem = structure.with_modes(modes);
+         const ContactState state = structure.with_modes(modes, column.state);
+         FrictionSolver solver(problem);
+         for (int k = 0; k < 3; ++k)
+         {
+            const ModalLoop loop = modal_loop(
+               solver, problem, state, "mode " + std::to_string(k + 1), modes.omega[k], 1e-9);
+            ASSERT_EQ(loop.status, FrictionStatus::converged) << loop.message;
+            EXPECT_TRUE(loop.steady) << loop.message;
+            EXPECT_NEAR(loop.omega_secant, modes.omega[k], 1e-6 * modes.omega[k]);
+            EXPECT_NEAR(loop.omega, modes.omega[k], 1e-6 * modes.omega[k]);
+            EXPECT_LT(loop.zeta, 1e-9);
+         }
       }
    }
 }
