@@ -91,7 +91,7 @@ TEST(HalfSpaceStages, ARigidSphereIsPressedInOneIncrement)
 {
    const double edge = 2.0 / 35, P = 4.0 / 30 / 0.91;
    const HalfSpace contact = cattaneo_test::contact_of(
-      {1, 0.3}, {}, edge, cattaneo_test::cells(39, edge, 1 + 1.5 * edge));
+      {1, 0.3}, {}, edge, cattaneo_test::cells(39, edge, 1 + 1.49 * edge));
    ReducedProblem problem = contact.problem(contact.centres.rowwise().squaredNorm() / 20);
    ASSERT_EQ(problem.nodes(), 1125);
    set_friction(problem, 0.3);
