@@ -306,7 +306,7 @@ def sweep(plan, draws):
             counters[name] = counters.get(name, 0) + count
     run.update(sweep=table.rows, references=[], seconds=time.monotonic() - begun, counters=counters, blas_kernels=plan["blas_kernels"],
                warnings=warnings)
-    run["shown"] = {"study": plan["study"], "event": "", "units": {"length": "", "pressure": ""}, "options": options, "values": [], "tables": [table.printed()] if points else [],
+    run["shown"] = {"study": plan["study"], "event": "", "units": {"length": "", "pressure": ""}, "options": options, "values": [], "tables": [in_words(table.printed(), keys, points)] if points else [],
                     "panels": panels, "marches": [], "more_marches": 0}
     if options["verbose"]:
         print(f"\nWhat it took, {run['seconds']:.3g} s")
@@ -316,6 +316,13 @@ def sweep(plan, draws):
     sys.stdout.flush()
     report(run, table, options, draws)
     return 0 if converged == asked and not missing else 2
+
+
+def in_words(printed, keys, points):
+    """The table of the page: columns as the program calls them, with units."""
+    known = {key["name"] for key in keys}
+    head = [called(name) if name in known else "".join(words_of(points, name)) for name in printed["head"]]
+    return {**printed, "head": head}
 
 
 def table_of(keys, points, names, shown):
