@@ -68,6 +68,7 @@ json read_case(const std::string &file, int version)
    try
    {
       const std::string text = cattaneo::read_whole(file, "case file: ");
+      require(text.find_first_not_of(" \t\r\n") != std::string::npos, where, " is empty");
       cattaneo::require_single_keys(where, text);
       keys = parsed(text, true);
    }

@@ -357,6 +357,12 @@ void OwnHistory::begin(const ReducedProblem &problem)
       const bool bolt = bolts && std::any_of(bolts->bolts().begin(), bolts->bolts().end(),
                                              [&](const Bolt &one)
                                              { return one.load == problem.patterns[k].name; });
+      if (bolt && values.maxCoeff() >= 20)
+      {
+         warn("history tightens bolt '" + problem.patterns[k].name + "' to " +
+              message_text(values.maxCoeff()) +
+              " times its preload: the value at a point is a factor, not a force");
+      }
       if (bolt || values.cwiseAbs().maxCoeff() > 0) { continue; }
       warn("load '" + problem.patterns[k].name +
            "' is zero throughout the history, so that it does nothing: name it there, as '" +

@@ -42,6 +42,10 @@ ordered_json as_number(const std::string &word)
 std::vector<std::string> spread(const std::string &word)
 {
    const std::vector<std::string> parts = split(word, ":");
+   const bool two =
+      parts.size() == 2 && as_number(parts[0]).is_number() && as_number(parts[1]).is_number();
+   require(!two, "option --sweep: '", word,
+           "' is no range, must be FROM:TO:COUNT such as 1:4:4");
    if (parts.size() != 3 || word.find(':') == std::string::npos) { return {word}; }
    const ordered_json from = as_number(parts[0]), to = as_number(parts[1]),
                       count = as_number(parts[2]);

@@ -1,5 +1,7 @@
 #include "contact/joint_case.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <algorithm>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
@@ -495,10 +497,9 @@ void add_obstacle(JointCase::Face &face, const Key &key)
       return;
    }
    const Key line = key["line"];
-   if (!line.value().is_array() || line.value().size() < 2)
-   {
-      line.refuse("a list of two points or more");
-   }
+   if (!line.value().is_array()) { line.refuse("a list of two points or more"); }
+   require(line.value().size() >= 2, line.called(), " has ", line.value().size(),
+           " point(s), must be a list of two points or more");
    for (const Key &point : line.list())
    {
       const std::array<double, 2> at = point.pair();
@@ -532,6 +533,8 @@ std::vector<JointCase::Motion> motions(const Key &key, bool in_space)
          const std::array<double, 2> centre = one["centre"].pair();
          made.centre = {centre[0], centre[1]};
       }
+      require(made.angle == 0 || one.has("centre"), one.called(),
+              " turns the obstacle, it must have the key centre");
       require(made.along.norm() > 0 || made.angle != 0, one.called(),
               " moves nothing, must have x, y or ", in_space ? "z" : "angle", " that is not 0");
       all.push_back(made);
@@ -633,6 +636,16 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
               other);
    }
    if (key.has("friction")) { made.friction = key["friction"].profile(not_negative, in_space); }
+   double most = 0;
+   for (const std::array<double, 2> &point : made.friction.points)
+   {
+      most = std::max(most, point[1]);
+   }
+   if (most > 3)
+   {
+      warn(key["friction"].called() + " is " + message_text(most) +
+           ": it is a coefficient such as 0.3, not a percentage");
+   }
    if (key.has("strength"))
    {
       require(!key.has("friction"), key.called(),

@@ -32,6 +32,17 @@ Eigen::Vector2d direction_of(const JointCase &joint, const JointCase::Bolt &bolt
            "which points from the second end to the first");
    // Removes the round-off of the middles.
    for (double &x : apart) { x = settled(x, 1e4 * apart.norm()); }
+   const double least = apart.cwiseAbs().minCoeff() / apart.norm(),
+                leans = std::asin(least) * 180 / std::acos(-1.0);
+   if (leans > 5)
+   {
+      warn("bolt '" + bolt.name + "' leans by " + text("%.3g", leans) +
+           " degrees, because it lies along the line between the middles of its ends, at " +
+           message_text(ends[0][0]) + ", " + message_text(ends[0][1]) + " and at " +
+           message_text(ends[1][0]) + ", " + message_text(ends[1][1]) +
+           ": if it should not, the parts must end elsewhere, or the key 'direction' must be "
+           "there");
+   }
    return apart.normalized();
 }
 

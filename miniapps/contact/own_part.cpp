@@ -219,8 +219,18 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
             hold("guide", each.on,
                  [&]
                  {
-                    elastic_->guide(boundary_part(each.source.called("on"), each.on, terms_),
-                                    per_thickness(each.guide, joint_.thickness_of(b)));
+                    const std::string on = each.source.called("on");
+                    try
+                    {
+                       elastic_->guide(boundary_part(on, each.on, terms_),
+                                       per_thickness(each.guide, joint_.thickness_of(b)));
+                    }
+                    catch (const InputError &error)
+                    {
+                       const std::string said = error.what();
+                       throw InputError(
+                          said.rfind(on, 0) == 0 ? said : on + " '" + each.on + "': " + said);
+                    }
                  });
          }
          for (const std::string &one : split(body_.load, ";\n"))

@@ -125,6 +125,7 @@ std::string entry(const std::string &what, Index i, Index j)
 std::string sizes(Index rows, Index columns)
 {
    const auto text = [](Index size) { return size < 0 ? "any" : std::to_string(size); };
+   if (rows < 0 && columns < 0) { return "two dimensions"; }
    return "(" + text(rows) + ", " + text(columns) + ")";
 }
 

@@ -169,3 +169,27 @@ def test_supports_of_an_abaqus_matrix(run):
     supports = [row for row in got["reactions"] if row["kind"] == "support"]
     assert [row["name"] for row in supports] == ["left out of the matrix"], got.output
     assert abs(supports[0]["force_x"] + 3 * 0.1) < 1e-12
+
+
+def test_numbers_that_mean_something_else(run):
+    """A percentage, a force where a factor stands, a bolt that leans, and what is refused."""
+    run.block("up.mesh", 0, 4, 8, 0, 1, 2)
+    run.block("low.mesh", 0, 4, 8, -1, 0, 2)
+    bolt = {"between": ["up:3[1<x<3]", "low:1[1<x<3]"], "stiffness": 100, "preload": 1}
+    case = {"bodies": {"up": body("up.mesh", "@0,1:x"), "low": body("low.mesh", "1:x @0,-1:y @4,-1:y")}, "interfaces": {"flat": face("up:1", "low:3", 0.3)},
+            "bolts": {"M8": bolt}, "history": ["M8=0", "M8=1"]}
+    assert run.case(case).warned() == ""
+    assert "friction' is 30: it is a coefficient such as 0.3, not a percentage" in run.case(changed(case, {"interfaces.flat.friction": 30})).warned()
+    assert "history tightens bolt 'M8' to 30 times its preload" in run.case(changed(case, {"history": ["M8=0", "M8=30"]}), code=None).warned()
+    leaning = run.case(changed(case, {"bolts.M8.between": ["up:3[1<x<3]", "low:1[0<x<3]"]}), code=None).warned()
+    assert "bolt 'M8' leans by 14 degrees" in leaning and "key 'direction'" in leaning, leaning
+    guided = changed(case, {"bodies.up.guides": [{"on": "4", "x": "held"}]})
+    assert "key 'bodies.up.guides.0.on' '4': " in run.refused(guided)
+    floor = {"bodies": {"up": body("up.mesh", None, ["P pressure 3 1"])}, "interfaces": {"floor": {"between": ["up:1"], "friction": 0.3}}, "history": ["P=0", "P=1"]}
+    assert "motion.turn' turns the obstacle, it must have the key centre" in run.refused(changed(floor, {"interfaces.floor.motion": {"turn": {"angle": 0.1}}}))
+    free = run.refused({**changed(floor, {"interfaces.floor.guide": {"x": {"force": "Q"}, "y": {"force": "P2"}}}), "history": ["P=0", "P=1"]})
+    assert "the bodies do not resist all motions of the obstacles of interface 'floor'" in free, free
+    assert "'1:4' is no range, must be FROM:TO:COUNT" in run.refused(case, "--sweep", "order=1:4")
+    run.write("mesh.inp", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
+    assert "a mesh of Gmsh must be called .msh" in run.refused(changed(case, {"bodies.up.mesh": str(run.folder / "mesh.inp")}))
+    run.refuses("contact", ["--case", run.write("empty.json", "\n")], ["case file", "is empty"])

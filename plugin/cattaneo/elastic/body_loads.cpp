@@ -471,12 +471,12 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
               !on_axis(node),
            where, ": component r at ", at, " is to be ", value, ", must be zero on the axis");
    const double other = values(dof);
-   require(
-      !prescribed_[k][dof] ||
-         std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
-      where, ": component ", component, " at ", at, " is to be ", value,
-      ", and was already prescribed as ", other,
-      " by the same pattern: its parts must agree where they meet, or one must end before");
+   const char *const axes = formulation_ == Formulation::axisymmetric ? "rz" : "xyz";
+   require(!prescribed_[k][dof] ||
+              std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
+           where, ": at ", at, " it is ", other, " by one statement and ", value,
+           " by another, along ", axes[component],
+           ": its parts must agree where they meet, or one must end before");
    values(dof) = value;
    prescribed_[k][dof] = essential_[dof] = true;
 }

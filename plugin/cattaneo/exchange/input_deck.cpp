@@ -807,7 +807,8 @@ Block &DeckReader::chosen(const std::string &file, const DeckPart &part)
    {
       if (instances_.empty() && block.has_nodes()) { blocks.push_back(&block); }
    }
-   require(!blocks.empty(), "file '", file, "': there is no *NODE, must be");
+   require(!blocks.empty(), "file '", file,
+           "': there is no *NODE, a deck must have one (a mesh of Gmsh must be called .msh)");
    std::vector<std::string> names;
    for (Block *block : blocks)
    {

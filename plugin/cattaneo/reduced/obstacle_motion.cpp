@@ -289,9 +289,21 @@ void Reduction::free_obstacles(const std::vector<FreeMotion> &motions)
       resisted = factor.compute(unit.asDiagonal() * M * unit.asDiagonal()) &&
                  factor.smallest_pivot() > 1e-10;
    }
-   require(resisted,
-           "free obstacles: the bodies do not resist all motions of the obstacles: support "
-           "the bodies or the obstacles");
+   std::vector<std::string> names;
+   for (const FreeMotion &motion : motions)
+   {
+      for (const std::string &name : faces_of(motion.motions, interfaces))
+      {
+         const std::string quoted = "'" + name + "'";
+         if (!name.empty() && std::find(names.begin(), names.end(), quoted) == names.end())
+         {
+            names.push_back(quoted);
+         }
+      }
+   }
+   require(resisted, "free obstacles: the bodies do not resist all motions of the obstacles",
+           names.empty() ? "" : " of interface " + listed(names),
+           ": support the bodies, or hold the obstacles");
    const auto solved = [&](const MatrixXd &forces) -> MatrixXd
    { return unit.asDiagonal() * factor.solved(unit.asDiagonal() * forces); };
    MatrixXd f(m + n, before);
