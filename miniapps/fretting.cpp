@@ -199,8 +199,8 @@ void assess_pad(Study &study)
    if (pad.kind == "fe")
    {
       solved = solve(study, pad, contact, true);
-      // Nearer to an edge than a spacing the mesh has neither the tractions nor the peak of the
-      // stress, and deeper than the contact is wide there is nothing left of them.
+      // Within a spacing of an edge the mesh resolves neither the tractions nor the peak of the
+      // stress. Deeper than the half-width of the contact they have decayed.
       require(std::isnan(depth) || (depth >= solved->spacing && depth <= solved->half_width),
               "--averaging-depth is ", depth,
               " mm, must be from the spacing of the contact nodes, ", solved->spacing,

@@ -56,8 +56,8 @@ void check_start(const ReducedProblem &problem, const ContactState &state,
            history.piece(history.pieces() - 1).end);
 }
 
-/// A saved state must obey the laws of the problem. InputError with the interface, where a gap
-/// or a friction has been changed.
+/// A saved state must obey the laws of the problem. InputError that names the interface if a
+/// gap or a friction has been changed.
 void check_laws_at_start(const ReducedProblem &problem, const ContactState &state)
 {
    const Eigen::Index n = problem.nodes();
@@ -94,7 +94,7 @@ void check_laws_at_start(const ReducedProblem &problem, const ContactState &stat
    }
 }
 
-/// The circle that a run of nodes lies on, if it is one that turns enough to be told from a
+/// The circle on which a run of nodes lies, if the run turns enough to be distinguished from a
 /// straight line.
 struct Circle
 {
@@ -175,8 +175,8 @@ std::vector<std::string> interfaces(const ReducedProblem &problem)
    return names;
 }
 
-/** Where the line of an interface is straight along an axis its places are named by x or y.
-    Says so of a panel whose places are arc lengths s: "NAME=x,way,start", x = start + way s. */
+/** If the line of an interface is straight along an axis, its places are named by x or y. Marks
+    a panel whose places are arc lengths s: "NAME=x,way,start", x = start + way s. */
 void say_straight(Panel &panel, const ReducedProblem &problem, const std::string &interface,
                   bool about_axis)
 {

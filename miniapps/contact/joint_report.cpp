@@ -32,7 +32,8 @@ std::string kept_name(const JointCase::Bolt &bolt)
    return "bolt " + bolt.name;
 }
 
-/// And where it has been tightened: point of the history and value, one after the other.
+/// The name of a bolt's tightenings in a saved state: point of the history and value, one after
+/// the other.
 std::string points_name(const JointCase::Bolt &bolt)
 {
    return "points of bolt " + bolt.name;
@@ -480,7 +481,7 @@ void JointReport::draw_loops()
    {
       const Course &course = courses_[k];
       if (course.shear.empty()) { continue; }
-      // Forces that balance each other leave round-off, which is no loop.
+      // If forces balance each other, only round-off is left, which is not a loop.
       const auto [least, most] = std::minmax_element(course.shear.begin(), course.shear.end());
       if (*most - *least < 1e-6 * course.pressing) { continue; }
       panel.add(reduction_.interfaces[k].name, course.slip, course.shear);

@@ -97,7 +97,7 @@ private:
    bool is_tightened(std::size_t bolt, double time, double load) const;
    /// Point and value of each tightening that has begun before a time.
    std::vector<double> tightened_before(std::size_t bolt, double time) const;
-   /// InputError if the march that saved a state has tightened bolts otherwise.
+   /// InputError if the march that saved a state has tightened bolts differently.
    void check_tightenings(const cattaneo::ContactState &state) const;
    /// For a march that continues from a state without values of bolts: its time.
    double known_from_ = 0;

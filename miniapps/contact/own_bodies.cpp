@@ -46,7 +46,7 @@ Eigen::Vector2d direction_of(const JointCase &joint, const JointCase::Bolt &bolt
    return apart.normalized();
 }
 
-/// The guided parts of bodies, for those who draw them.
+/// Notes the guided parts of bodies, for pictures.
 void note_guides(OwnBodies &own, const JointCase &joint)
 {
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)

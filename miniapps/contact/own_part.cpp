@@ -617,7 +617,7 @@ bool OwnPart::holds_all_of(const std::string &load) const
    std::set<int> held(all.begin(), all.end());
    if (elastic_)
    {
-      // Those of a guide move with it where it is free or under a force.
+      // Dofs of a guide move with it if it is free or under a force.
       for (const BlockMotion &block : elastic_->blocks())
       {
          for (const int dof : all)

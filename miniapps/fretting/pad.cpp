@@ -186,7 +186,7 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form, boo
    }
    solved.positions = problem.position.col(0);
    if (saves) { study.save(problem); }
-   // Once round the steady cycle, in eighths of its ranges.
+   // Once through the steady cycle, in eighths of its ranges.
    for (int k = 1; k <= 16; ++k)
    {
       const double share = std::abs(1 - k / 8.0);

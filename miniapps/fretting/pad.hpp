@@ -84,11 +84,11 @@ struct SolvedPad
    };
    /** σ_xx on the surface of the specimen at an edge of the contact at peak load, with the bulk
        stress, MPa. Pressure and shear begin like the root of the distance from the edge, and so
-       does the stress: that root is in the integral, but not in the tractions of a mesh. The
-       error is the difference to every second node. */
+       does the stress. The integral contains this root, the tractions of a mesh do not. The
+       error is the difference from the result with every second node. */
    Stress edge_stress(bool trailing) const;
 
-   /// Its intensities in place of the closed forms.
+   /// The intensities of this contact, in place of the closed forms.
    PadContact in_place_of(PadContact closed_form) const;
 };
 

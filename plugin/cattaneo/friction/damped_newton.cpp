@@ -70,7 +70,7 @@ MatrixXd natural_map_derivative(const Increment &at)
 }
 
 /// Newton's method on the natural map from the present displacements, damped so that the
-/// residual falls in every step. False if it does not vanish in so many steps.
+/// residual falls in every step. False if it does not vanish in the given number of steps.
 bool descend(Increment &at, long most)
 {
    FrictionSystem &s = at.system;
@@ -78,7 +78,7 @@ bool descend(Increment &at, long most)
    VectorXd R = natural_map(at);
    for (long k = 0; k < std::min<long>(most, 2 * s.settings.max_newton); ++k)
    {
-      // Near enough for the active set to continue from here.
+      // Close enough for the active set to continue from here.
       if (R.norm() <= 1e-9 * at.reference + at.round_off().maxCoeff()) { return true; }
       ++s.counters.newton_steps;
       ++s.counters.dense_factorisations;

@@ -192,8 +192,8 @@ IncrementReport solve_in(FrictionSystem &system, ContactState &state,
    return report;
 }
 
-/// A frictionless contact with its slip among the unknowns, which a pad that rocks on a nearly
-/// straight line needs.
+/// Solves a frictionless contact with slip among the unknowns. A pad that rocks on a nearly
+/// straight line needs this.
 IncrementReport solve_with_slip(FrictionSystem &system, ContactState &state,
                                 const VectorXd &multipliers)
 {
@@ -219,7 +219,7 @@ bool find_end_quickly(Increment &at)
 
 IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multipliers)
 {
-   // 1. The increment, without friction with slip eliminated.
+   // 1. The increment. Without friction, slip is eliminated.
    IncrementReport report = solve_in(*this, state, multipliers);
    // 2. For a free body without friction on a nearly straight line the elimination may have
    // cost the digits. A motion that carries a body away has another status.

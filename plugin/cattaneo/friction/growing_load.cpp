@@ -1,5 +1,5 @@
-// Two tangents: the loads of an increment grow to what they are, while slip is counted from its
-// start.
+// Two tangents: the loads of an increment grow to their full values, while slip is counted from
+// the start of the increment.
 
 #include <algorithm>
 #include <cattaneo/friction/methods.hpp>
@@ -9,9 +9,9 @@ namespace cattaneo
 
 using Eigen::VectorXd;
 
-/// Newton's steps reach the end of small increments. They begin for each part of the loads
-/// where those for a smaller part ended. Slip is counted from the start of the increment with
-/// all of the parts, so that the answer is that of one increment.
+/// Newton's steps reach the end of small increments. For each part of the loads they begin
+/// where the steps for a smaller part ended. For all parts, slip is counted from the start of
+/// the increment, so that the answer is that of one increment.
 Search growing_load(Increment &at)
 {
    constexpr double least = 1.0 / 64; // step, a share of the loads
@@ -34,7 +34,7 @@ Search growing_load(Increment &at)
       const VectorXd loads = before + share * (at.multipliers - before);
       Increment part(at.system, at.start, loads);
       if (done > 0) { part.move_to(last.u, last.status); }
-      // 2. Half of the step where that fails, and up to twice the loads where it does not.
+      // 2. If this fails, half of the step; otherwise up to twice the loads.
       if (!newton(part))
       {
          step *= 0.5;

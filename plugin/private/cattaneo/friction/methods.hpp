@@ -37,7 +37,7 @@ bool polished(Increment &at);
 Search lemke(Increment &at);
 Search lemke_from_afar(Increment &at);
 
-/// Two tangents: Newton with parts of the loads, each from the end of the one before.
+/// Two tangents: Newton with parts of the loads, each from the end for the previous part.
 Search growing_load(Increment &at);
 /// Two tangents, where nothing can move freely: follows the solutions with a share of friction,
 /// and with rounded laws, while friction grows from zero to its full value.
