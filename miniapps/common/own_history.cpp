@@ -74,7 +74,7 @@ void check_laws_at_start(const ReducedProblem &problem, const ContactState &stat
          const double opening = state.w[i] + problem.gap[i],
                       force = problem.C()(i, i) * opening;
          require(force > -tiny && (!closed(state.status[i]) || force < tiny), where, "the gap",
-                 at, " has been changed, by which a node ",
+                 at, " has been changed, so that a node ",
                  force > 0 ? "that is closed in the saved state would be open by "
                            : "would overlap by ",
                  message_text(std::abs(opening)), must);

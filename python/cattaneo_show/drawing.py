@@ -40,7 +40,7 @@ STATES = OrderedDict([
     ("slip", ("#E69F00", "////")),
     ("separation", ("#FFFFFF", "....")),
 ])
-# In grey both slips are alike but for their hatching, dark and white.
+# In grey the two kinds of slip differ only by their hatching, dark and white.
 HATCH = {"backward slip": "#FFFFFFDD"}
 
 
@@ -49,7 +49,7 @@ def hatch_of(state):
 
 
 def state_patch(state):
-    """Of a legend."""
+    """The patch of a state in a legend."""
     colour, hatch = STATES[state]
     return Patch(facecolor=colour, edgecolor=hatch_of(state), hatch=hatch, label=state)
 
@@ -111,7 +111,7 @@ def draw_lines(axes, comments, rows):
         axes.set_ylim(min(inner) - gap, max(inner) + gap)
     axes.grid(True, color="#DDDDDD", linewidth=0.6)
     axes.set_axisbelow(True)
-    for line in axes.get_lines():  # on a logarithmic axis nothing is seen of it
+    for line in axes.get_lines():  # not visible on a logarithmic axis
         if comments["scale"] and comments["scale"][0] != "semilogx" and len(line.get_ydata()) and not max(line.get_ydata()) > 0:
             line.set_label(f"{line.get_label()} (zero)")
     said = labelled - {""}
@@ -120,8 +120,8 @@ def draw_lines(axes, comments, rows):
 
 
 def along_line(said, label, names=()):
-    """Places by x or y where all contact lines are straight along one axis, as a panel says ("straight": NAME=x,way,start): what an
-    arc length is of a curve, and the label of the axis. The names are those of the curves, of several interfaces their own."""
+    """If all contact lines are straight along one axis, as a panel says ("straight": NAME=x,way,start): a function from an arc
+    length of a curve to its place in x or y, and the label of the axis. With several interfaces the names are those of the curves."""
     lines = {}
     for text in said["straight"]:
         name, _, place = text.rpartition("=")
@@ -140,7 +140,7 @@ def along_line(said, label, names=()):
 
 
 def interface_of(curve):
-    """Of the names of tractions."""
+    """The interface in the name of a curve of tractions."""
     return curve.removeprefix("q/f: ")
 
 

@@ -156,11 +156,10 @@ int BoltedJoint::last_tightening(const LoadHistory &history) const
       require(forces.maxCoeff() > 0 || (named && history.cycle_start < 0), where,
               "is never tightened: a point must name it, as '", bolts_[b].load,
               "=1', or it must be left out",
-              history.cycle_start < 0
-                 ? " (or its name must stand there, as '" + bolts_[b].load +
-                      "=0', if a march tightens it that goes on from "
-                      "the state of this one)"
-                 : "");
+              history.cycle_start < 0 ? " (or a point must name it, as '" + bolts_[b].load +
+                                           "=0', if a later march that continues from this "
+                                           "state tightens it)"
+                                      : "");
       if (forces.maxCoeff() == 0)
       {
          last = history.pieces() - 1; // all parts of the history are without it
