@@ -84,7 +84,7 @@ void hertz(Study &study)
    const VectorXd x = problem.position.col(0);
    problem.gap = x.array().square() / (2 * radius);
    study.reduced(scene);
-   // Over p0, with x in b: √(1 - x²) within the contact, and zero beyond.
+   // The pressure over p0, with x in b: √(1 - x²) within the contact, and zero beyond.
    const auto ellipse = [b](double half, double s)
    { return std::abs(s) < half ? std::sqrt(half * half - s * s) / b : 0.0; };
 

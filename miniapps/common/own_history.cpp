@@ -562,7 +562,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    }
    if (idle && report.status == FrictionStatus::converged)
    {
-      warn(told("option --load-state: the saved state stands at the end of the history, time ",
+      warn(told("option --load-state: the saved state is at the end of the history, time ",
                 state.time, ": nothing was left to march"));
    }
    if (!zones_in_time.empty()) { zones_in_time.draw(problem, state); }

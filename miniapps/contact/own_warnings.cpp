@@ -106,8 +106,8 @@ void warn_of_thin_wall(const SmoothSides &sides, const std::string &body, int or
    if (std::abs(share) < 0.025) { return; }
    warn("body ", body, ": ", sides.free_chords,
         " straight edges of its free sides are chords of smooth curves and stay straight, ",
-        order < 2 ? "as its elements are of order 1"
-                  : "as elements beside them would fold, or its mesh is periodic",
+        order < 2 ? "because its elements are of order 1"
+                  : "because elements beside them would fold, or its mesh is periodic",
         "; at (", at.place[0], ", ", at.place[1], ") its wall is ", at.wall,
         ", that of the curves ", at.wall + at.off, ": the body is ",
         share > 0 ? "softer" : "stiffer", " than it should be, its wall by about ",

@@ -76,8 +76,8 @@ public:
    const std::vector<Named> &held() const { return named_; }
    const Sum &contact() const { return contact_; }
    bool known() const { return held_.K.size() > 0; }
-   /// The sum of all forces over the largest; NaN: there is no force, or the forces of supports
-   /// are known only from the balance.
+   /// The sum of all forces divided by the largest one. NaN: there is no force, or the forces
+   /// of supports are known only from the balance.
    double imbalance() const
    {
       if (held_.supports_left_out) { return none; }

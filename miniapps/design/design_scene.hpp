@@ -24,7 +24,7 @@ struct DesignScene
    bool cycles() const { return goal != "pressure"; }
 };
 
-/// The contact before its design. InputError naming the option; so for the cases.
+/// The contact before its design. InputError naming the option, as for the cases.
 cattaneo::ReducedProblem make_problem(Study &study, const DesignScene &chosen);
 std::vector<cattaneo::DesignCase> make_cases(const DesignScene &chosen,
                                              const cattaneo::ReducedProblem &problem);

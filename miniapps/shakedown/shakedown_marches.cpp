@@ -253,7 +253,8 @@ void Shakedown::repeat(const char *table_name, const PunchOptions &other)
    set_friction(on.reduced, friction);
    const double f = smallest(on).limit, load = largest(on).limit;
    on.cycle = cycle_of(changed.problem(), -1);
-   // [Dundurs 1969], the block is body 1; the rigid plane infinitely stiff.
+   // Dundurs' constants [Dundurs 1969]. The block is body 1, and a rigid plane is infinitely
+   // stiff.
    const double nu = other.poisson,
                 below = std::isnan(other.plane_poisson) ? nu : other.plane_poisson,
                 share = other.half_plane ? 1 / (1 + other.plane_stiffness) : 0,

@@ -162,7 +162,7 @@ void require_held(const FactoredStiffness &of, const AssembledBody &body, const 
 ClampedLoads clamp(const AssembledBody &body, FactorSolver &solver, Counters &counters)
 {
    const std::vector<BodyLoad> &loads = body.loads;
-   // One column a load. K d is needed once more below, at contact and fixed dofs.
+   // One column per load. K d is needed once more below, at contact and fixed dofs.
    const FactoredStiffness &of = *solver.stiffness;
    const auto count = static_cast<Eigen::Index>(loads.size());
    const int interior = of.interior(), size = static_cast<int>(of.keep.size());

@@ -112,7 +112,7 @@ double long_crack()
 double crack_integral(double c)
 {
    // The line is moved across the poles that carry the two leading terms for short or for long
-   // cracks, so that what is integrated is small against them.
+   // cracks, so that the integrand is small compared with these terms.
    if (c < 1)
    {
       static const InverseMellin rest(-1.25);

@@ -31,8 +31,8 @@ VectorXd closed_gaps(const Increment &at)
    return w;
 }
 
-/// Moves the nodes that slip or are open from displacements `u` to those that meet the
-/// equations of the states; forces: K u + f, and with u = 0.
+/// Moves the nodes that slip or are open, from displacements `u` to displacements that meet the
+/// equations of the states. `f` are the forces with u = 0, and `forces` gets K u + f.
 bool solve_equations(FrictionSystem &system, std::unique_ptr<StateEquations> &equations,
                      const Eigen::Ref<const MatrixXd> &stiffness,
                      const std::vector<NodeState> &states, const VectorXd &f, VectorXd &u,

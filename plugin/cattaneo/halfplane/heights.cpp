@@ -67,7 +67,7 @@ Eigen::VectorXd Heights::at(const Eigen::MatrixX2d &points) const
    {
       const Eigen::Vector2d point = points.row(k);
       const Eigen::Array2d place = point.array() / step.array() + most / 2;
-      // A point on the rim belongs to the grid, whatever its rounding.
+      // A point on the rim belongs to the grid in spite of rounding.
       require((place >= -1e-9).all() && (place <= most + 1e-9).all(), "heights: the point ",
               point, " lies outside of the measured part, |x| <= ", most[0] * step[0] / 2,
               ", |y| <= ", most[1] * step[1] / 2);

@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 namespace
 {
 
-/// Rigid motions about a point, of bodies' traces, rotations over a size.
+/// Rigid motions of the traces of bodies about a point, with rotations divided by a size.
 MatrixXd about(const CondensedBody &body, const Eigen::Vector3d &centre, double size)
 {
    MatrixXd R = body.rigid_motions(centre);

@@ -106,9 +106,10 @@ public:
       border_.solve_half(resisted_);
       return true;
    }
-   /// The constraint adds the square of this to the energy of z; empty without a constraint.
+   /// The constraint adds the square of this matrix times z to the energy of z. Empty without a
+   /// constraint.
    const MatrixXd &constraint() const { return resisted_; }
-   /// y where V z are the forces on it.
+   /// y under the forces V z.
    VectorXd at(VectorXd Vz, const VectorXd &z) const
    {
       if (borders_.cols() > 0)

@@ -7,7 +7,7 @@ namespace cattaneo
 {
 
 /// Derivatives of the worn_depth() of one node with a weight, over an increment: by the
-/// arguments of its rubbing, and by Archard's k there.
+/// arguments of its Rubbing, and by Archard's k there.
 struct WornDerivative
 {
    RubbingDerivative by;
