@@ -1,10 +1,11 @@
 //  joint: frequency and damping of a bolted joint against amplitude, mode by mode
 //
-//  Reads a case file as contact does, whose bodies have the key density. Tightens the bolts,
-//  finds the modes of the joint with all closed nodes glued, and swings each mode
-//  quasi-statically at a list of amplitudes: the steady loop of force over modal amplitude has
-//  the frequency and the damping ratio of a vibration. docs/joint_dynamics.md says what is
-//  assumed. Units are the user's: with mm, N and t/mm³ frequencies are in Hz.
+//  Reads a case file of the program contact, in which bodies have the key density. Tightens the
+//  bolts, and finds the modes of the joint with all closed nodes glued. Then moves each mode
+//  quasi-statically to and fro with a list of amplitudes. The steady loop of force over modal
+//  amplitude gives the frequency and the damping ratio of a vibration. docs/joint_dynamics.md
+//  states the assumptions. Units are those of the case: with mm, N and t/mm³ frequencies are
+//  in Hz.
 //
 //  Sample runs:
 //    joint --case meshes/bolted_joint.json --modes 4 --amplitudes "1e-7 … 2e-5"
@@ -47,7 +48,7 @@ std::vector<VibratingBody> with_mass(const JointCase &joint, const OwnBodies &ow
    return all;
 }
 
-/// A sentence where stiffness, density and length cannot be in the units that the case names.
+/// A sentence if stiffness, density and length cannot be in the units that the case names.
 void warn_of_units(const JointCase &joint, const OwnBodies &own)
 {
    const std::map<std::string, double> metres{{"m", 1},      {"cm", 1e-2}, {"mm", 1e-3},

@@ -95,7 +95,7 @@ struct PartInSpace
          throw InputError(called() + ": " + error.what());
       }
    }
-   /// Does what holds something; all that was free before is its.
+   /// Calls a function that holds dofs, and notes those that were free before.
    template <class Hold>
    void hold(const std::string &kind, const std::string &name, Hold hold)
    {
@@ -231,7 +231,7 @@ void set_laws(const JointCase &joint, Reduction &reduction)
    }
 }
 
-/// Loads that move rigid obstacles, and obstacles that are free to move along axes.
+/// Adds loads that move rigid obstacles, and obstacles that are free to move along axes.
 void move_obstacles_in_space(Reduction &reduction, const JointCase &joint)
 {
    const auto motion = [](std::size_t face, const Vector3d &along)
@@ -312,7 +312,7 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
               "it out");
       const ContactSurface surface =
          of_body[b].size() == 1 ? of_body[b][0] : joined(of_body[b]);
-      // The last with a factor that this one's could be.
+      // The last body with a factor that this body could use.
       const CondensedBody *alike = nullptr;
       for (const CondensedBody &before : condensed)
       {
@@ -375,7 +375,7 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
                  {
                     report.note(reached, history.cycle);
                     if (!fields || !frame) { return; }
-                    study.counters -= spent; // what the frame costs is added
+                    study.counters -= spent; // the cost of the frame is added
                     fields->write(reached);
                     study.counters += spent;
                     ++frames;

@@ -7,7 +7,7 @@ namespace miniapp
 
 class OwnHistory;
 
-/// What a case of bodies in space is reduced to.
+/// The reduction of a case of bodies in space.
 struct BodiesInSpace
 {
    Scene scene;

@@ -275,7 +275,7 @@ void ReportInSpace::report_reactions(const ContactState &state)
 namespace
 {
 
-/// A direction as a reader knows it: x, y or z, or its components.
+/// A direction in words: x, y or z, or its components.
 std::string direction_name(const Vector3d &way)
 {
    for (int c = 0; c < 3; ++c)
@@ -356,7 +356,7 @@ void ReportInSpace::draw_maps(const ContactState &state)
    for (const InterfaceReport &face : reduction_.interfaces)
    {
       if (face.tied) { continue; }
-      // Where each node of the body is in the interface.
+      // The position of each node of the body in the interface.
       const int owner = face.bodies[0];
       std::map<int, Index> row_of;
       for (Index i = 0; i < face.nodes; ++i)

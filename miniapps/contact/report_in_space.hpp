@@ -8,7 +8,7 @@
 namespace miniapp
 {
 
-/// What is said of a case in space: resultants and areas of its interfaces, losses, loops,
+/// The report of a case in space: resultants and areas of its interfaces, losses, loops,
 /// reactions, and maps of the last state.
 class ReportInSpace
 {
@@ -24,7 +24,7 @@ public:
    void report(const cattaneo::ContactState &state, const cattaneo::MarchReport &march);
 
 private:
-   /// Of an interface: the sum of its normal forces, and its force on the first side.
+   /// The sum of the normal forces of an interface, and its force on the first side.
    struct Sum
    {
       double normal = 0, size = 0;

@@ -8,8 +8,8 @@
 namespace miniapp
 {
 
-/// The options that a case file of contact has, of which a joint that vibrates needs its bodies
-/// and the history up to its assembly.
+/// The options in a case file of contact. For a joint that vibrates, the bodies and the history
+/// up to the assembly are used.
 struct CaseOfJoint
 {
    int order = 2, cycle_start = -1, cycles = 1, increments = 20, at_point = -1;
@@ -19,7 +19,7 @@ struct CaseOfJoint
 
    explicit CaseOfJoint(Study &study);
    JointCase joint() const;
-   /// Names the units of what is printed.
+   /// Names the units of printed values.
    void name_units(Study &study, const JointCase &joint) const;
 };
 

@@ -19,7 +19,7 @@ namespace
 {
 
 const double pi = std::acos(-1.0);
-/// A damping ratio without a node that slips.
+/// The damping ratio below which no node slips.
 constexpr double round_off = 1e-9;
 
 /// "1e-7 … 1e-4" (or ... or to) in equal ratios, or a list of numbers.
@@ -49,7 +49,7 @@ std::vector<double> amplitudes(const std::string &words, int count)
    return all;
 }
 
-/// How far a mode moves a place, the length of its displacement per unit of its amplitude.
+/// The length of the displacement of a place per unit of the amplitude of a mode.
 double displacement_at(const OwnBodies &own, const JointCase &joint, const Modes &modes,
                        std::size_t mode, const JointCase::Point &point)
 {
@@ -125,7 +125,8 @@ double default_size(FrictionSolver &solver, const ReducedProblem &problem,
    return size;
 }
 
-/// What friction loses at each node, along each interface that loses a hundredth or more.
+/// Draws the loss by friction at each node, along each interface that loses a hundredth or
+/// more.
 void draw_losses(Panel &panel, const std::string &label,
                  const std::vector<InterfaceReport> &faces, const ModalLoop &loop)
 {
@@ -317,10 +318,11 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
       }
       std::sort(sizes.begin(), sizes.end());
       ModalLoop drawn, slid;
-      double near = glued; // frequency of the loop before, near which the next one is
+      double near =
+         glued; // frequency of the previous loop, which is close to that of the next one
       for (const double its : sizes)
       {
-         // Beyond an amplitude at which the joint slides it slides as well.
+         // Beyond an amplitude at which the joint slides, it slides as well.
          const bool beyond = std::isfinite(slid.sliding_force);
          const ModalLoop loop =
             beyond ? slid : modal_loop(solver, problem, state, name, near, its, settings);
@@ -358,7 +360,7 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
             drawn = loop;
          }
       }
-      // Damping and loss of frequency without a node that slips are round-off.
+      // If no node slips, damping and loss of frequency are round-off.
       std::vector<double> lost_drawn = lost, zeta_drawn = zeta;
       for (std::size_t j = 0; j < x.size(); ++j)
       {

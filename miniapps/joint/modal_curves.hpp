@@ -17,29 +17,29 @@ class ModalCurves
 {
 public:
    explicit ModalCurves(Study &study);
-   /// After parsing. InputError naming the option.
+   /// To be called after parsing. InputError naming the option.
    void check_options();
 
-   /// The modes about a state, printed.
+   /// Finds and prints the modes about a state.
    cattaneo::Modes report_modes(const cattaneo::VibratingStructure &structure,
                                 const cattaneo::ReducedProblem &problem,
                                 const cattaneo::ContactState &state, const JointCase &joint);
-   /// The loops of all modes at all amplitudes, printed and drawn. The exit code of the study
-   /// is 2 where one of them could not be found for another reason than that the joint slides.
+   /// Finds, prints and draws the loops of all modes at all amplitudes. The exit code of the
+   /// study is 2 if a loop was not found for another reason than that the joint slides.
    void report_loops(const cattaneo::VibratingStructure &structure,
                      const cattaneo::Modes &modes, const OwnBodies &own, const JointCase &joint,
                      const cattaneo::ContactState &state);
 
 private:
-   /// The mode of a row, its glued frequency, its displacement at the point, and is there a
-   /// steady loop of the size that is asked for?
+   /// The mode of a row, its glued frequency, its displacement at the point, and whether there
+   /// is a steady loop of the requested size.
    struct Row
    {
       Eigen::Index mode;
       double glued, at_point;
       bool known;
    };
-   /// What stands on the axis of amplitudes.
+   /// The label of the axis of amplitudes.
    double drawn_size(const cattaneo::ModalLoop &loop, double at_point) const;
    void row(ResultTable &table, const cattaneo::ModalLoop &loop, double size, const Row &of,
             const std::vector<cattaneo::InterfaceReport> &faces);
@@ -48,7 +48,7 @@ private:
    int modes_ = 3, count_ = 10;
    double shown_ = none;
    std::string amplitudes_, kind_ = "modal", at_;
-   std::vector<double> stated_; ///< amplitudes as the options have them
+   std::vector<double> stated_; ///< amplitudes of the options
 };
 
 } // namespace miniapp

@@ -265,7 +265,7 @@ void BoltedJoint::go_back(const Part &part, const ContactState &before,
       if (pulls) { state = tried; }
       (pulls ? low : high) = share;
       (pulls ? at_low : at_high) = found;
-      // An end that stays a second time counts half (Illinois).
+      // An end that is kept a second time counts half (Illinois).
       if (side == (pulls ? 1 : -1)) { (pulls ? at_high : at_low) *= 0.5; }
       side = pulls ? 1 : -1;
    }

@@ -40,7 +40,7 @@ double first_harmonic(const std::vector<LoopPoint> &points, double middle, doubl
       if (dq == 0) { continue; } // θ stays
       const double slope = (to.force - from.force) / dq,
                    a = from.force + slope * (middle - from.amplitude), b = slope * half;
-      // While q falls θ runs from 0 to π, while it rises from π to 2π.
+      // θ runs from 0 to π while q falls, and from π to 2π while q rises.
       const double start = angle(from.amplitude), end = angle(to.amplitude);
       const double first = dq < 0 ? start : 2 * pi - start, last = dq < 0 ? end : 2 * pi - end;
       sum += antiderivative(a, b, last) - antiderivative(a, b, first);
@@ -116,12 +116,12 @@ public:
          if (by > 0) { changes[k] = by / (most_[k] - least_[k]).lpNorm<Eigen::Infinity>(); }
       }
       change = std::max(changes[0], changes[1]);
-      // 2. Changes that fall in a ratio add up to more than the next one.
+      // 2. Changes that fall in a constant ratio add up to more than the next change.
       const double ratio = expected_.size() > 0      ? ratio_
                            : count > 0 && before > 0 ? change / before
                                                      : 1;
       const double left = ratio < 1 ? change * std::max(1.0, ratio / (1 - ratio)) : change;
-      // 3. Work along the loop that is no loss is stored: the state is another one.
+      // 3. Work along the loop that is not lost is stored, so the state has changed.
       const double round_off =
          1e-12 * std::abs(points[0].force) * half_range(points) +
          1e-13 * to[0].lpNorm<Eigen::Infinity>() * to[1].lpNorm<Eigen::Infinity>();
@@ -132,16 +132,16 @@ public:
       ratchets = !steady && changes[1] <= tolerance_ && changes[0] > 1e-6 &&
                  drift_.size() == drift.size() &&
                  (drift - drift_).norm() <= 1e-6 * drift.norm();
-      // 5. Is it seen where the cycles go?
+      // 5. Can the limit of the cycles be foreseen?
       ++count;
       find_jump(state, drift, 1e-12 * to[0].norm());
       drift_ = drift;
       status_ = state.status;
       if (goes_back) { steady = ratchets = false; }
    }
-   /// On to where many cycles lead if they go on as the last ones did. The equations of the
-   /// node states are linear, so that such a state obeys them. Or back to where the last such
-   /// jump began, if the cycle after it was not the one that was expected.
+   /// Jumps to the limit of many cycles that continue like the last ones. The equations of the
+   /// node states are linear, so that this state obeys them. If the cycle after a jump is not
+   /// the expected one, returns to the beginning of the jump.
    void jump(ContactState &state)
    {
       if (goes_back)
@@ -153,7 +153,7 @@ public:
          expected_.resize(0);
          if (cycles_ < 2)
          {
-            // The march goes on by itself, and comes past what stands in the way.
+            // The march continues without a jump, past the change that prevented one.
             drift_.resize(0);
             wait_ = 3;
             return;
@@ -170,19 +170,19 @@ public:
       state.p += forces.tail(state.p.size());
    }
 
-   std::vector<LoopPoint> points;                   ///< of the present cycle
-   int count = 0;                                   ///< ended ones
-   double change = 0;                               ///< of the last one, over what moves in it
-   bool steady = false;                             ///< the last one
-   bool ratchets = false;                           ///< each cycle adds the same displacements
-   bool can_jump = false;                           ///< is it seen where the cycles go?
-   bool goes_back = false;                          ///< the last jump was wrong
+   std::vector<LoopPoint> points; ///< of the present cycle
+   int count = 0;                 ///< ended ones
+   double change = 0;             ///< of the last cycle, relative to its displacements
+   bool steady = false;           ///< the last one
+   bool ratchets = false;         ///< each cycle adds the same displacements
+   bool can_jump = false;         ///< can the limit of the cycles be foreseen?
+   bool goes_back = false;        ///< the last jump was wrong
    const VectorXd &drift() const { return drift_; } ///< displacements added by the last cycle
 
 private:
    using Fields = std::array<VectorXd, 2>; // displacements, forces
 
-   /// Displacements of cycles in one direction, in one ratio, lead somewhere.
+   /// If displacements of cycles have one direction and one ratio, they have a limit.
    void find_jump(const ContactState &state, const VectorXd &drift, double round_off)
    {
       // 1. After a jump one cycle shows whether it was right.
@@ -196,7 +196,7 @@ private:
          can_jump = goes_back || drift.norm() > round_off;
          return;
       }
-      // 2. Otherwise three cycles are compared, by twos.
+      // 2. Otherwise three cycles are compared in pairs.
       if (wait_ > 0) { --wait_; }
       else if (drift_.size() == drift.size() && status_ == state.status &&
                begin_.status == state.status)
@@ -213,7 +213,7 @@ private:
    double tolerance_, loss_ = 0;
    ContactState begin_;
    Fields least_, most_;
-   VectorXd drift_; // of the displacements in the cycle before
+   VectorXd drift_; // of the displacements in the previous cycle
    std::vector<NodeState> status_;
    double ratio_ = 0, cycles_ = 0; // of drifts, and how many of them a jump leaves out
    VectorXd expected_;             // drift of the cycle after a jump
@@ -231,7 +231,7 @@ struct Swing
    FrictionStatus status = FrictionStatus::converged;
    std::string message;
    double event_force = 0; ///< at which equilibria end
-   bool rough = false;     ///< it was left before it was steady, see Swings::to_and_fro()
+   bool rough = false;     ///< it was abandoned before it was steady, see Swings::to_and_fro()
    ModalLoop loop;
 };
 
@@ -253,8 +253,8 @@ public:
    }
 
    /// From a state to the force, and then to and fro until a cycle repeats. A loop that is far
-   /// from the size that is asked for is left as soon as this is certain.
-   /// @param off  logarithm of the size over that, for the force and half the range of q; 0: it
+   /// from the requested size is abandoned as soon as this is certain. @param off logarithm of
+   /// the size over that, for the force and half the range of q; 0: it
    ///             is not far
    Swing to_and_fro(double force, ContactState state,
                     const std::function<double(double, double)> &off) const
@@ -263,7 +263,7 @@ public:
       Cycles cycles(settings_.steady_tolerance);
       for (bool opens = state.multipliers[load_] != force;; opens = false)
       {
-         // 1. March until a cycle repeats, or until it can be foreseen where they come to.
+         // 1. March until a cycle repeats, or until the limit of the cycles can be foreseen.
          make_ready(state);
          cycles.begin(state, point(state));
          const double start = opens ? 1 : 0;
@@ -279,7 +279,7 @@ public:
                const LoopPoint here{record.multipliers[load_], record.conjugates[load_]};
                if (record.cycle == 0)
                {
-                  // The last of these is where the first cycle begins.
+                  // The first cycle begins at the last of these points.
                   cycles.begin(now, here);
                   return;
                }
@@ -296,7 +296,7 @@ public:
                }
                else if (cycles.count < settings_.cycles) { cycles.begin(now, here); }
             });
-         // 2. Is it asked to stop, or is there no equilibrium?
+         // 2. Has a stop been requested, or is there no equilibrium?
          made.status = report.not_unique ? FrictionStatus::not_unique : report.status;
          made.message = report.not_unique ? report.not_unique->message : report.message;
          const bool known = solved(made.status) || (made.status == FrictionStatus::stopped &&
@@ -314,7 +314,7 @@ public:
             made.status = FrictionStatus::converged;
             made.message.clear();
          }
-         // 3. The loop, or on from where the cycles come to.
+         // 3. The loop, or continue from the limit of the cycles.
          if (cycles.steady || cycles.ratchets || made.rough || cycles.count >= settings_.cycles)
          {
             read(cycles, report.cycles.back(), force, std::move(state), made.loop);
@@ -337,7 +337,7 @@ public:
                points.push_back(
                   {record.multipliers[load_], record.conjugates[load_] - start.amplitude});
             });
-      // Masing: both branches of the loop are the first curve, doubled.
+      // Masing: both branches of the loop are the first curve with twice its size.
       const LoopPoint &end = points.back();
       loop.omega_first = std::sqrt(end.force / end.amplitude);
       const double masing = 8 * (work_along(points) - 0.5 * end.force * end.amplitude);
@@ -355,7 +355,7 @@ private:
       state.cycle.reset();
       state.cycle_slip.clear();
    }
-   /// `opens`: begins with the way to the force. @param cycles 0: that way alone
+   /// `opens`: begins with the path to the force. @param cycles 0: only that path
    LoadHistory history(const ContactState &state, double force, bool opens, int cycles) const
    {
       const std::vector<double> way =
@@ -411,7 +411,8 @@ private:
 };
 
 /// The force of a loop of a size, between one that is too small and one that is too large: by
-/// regula falsi of logarithms, in which an end that stays a second time counts half (Illinois).
+/// regula falsi of logarithms, in which an end that is kept a second time counts half
+/// (Illinois).
 class ForceSearch
 {
 public:
@@ -420,7 +421,7 @@ public:
    {
    }
 
-   /// A loop with the force has this size over the one that is asked for.
+   /// A loop with the force has this size, relative to the requested size.
    void found(double value)
    {
       const double off = std::log(value);
@@ -433,7 +434,7 @@ public:
       }
       else
       {
-         // The joint remembers what it went through: a force may do less now than before.
+         // The joint depends on its history: a force may now have a smaller effect than before.
          if (std::isfinite(at_high_) && high_ - force <= 1e-7 * high_)
          {
             high_ = at_high_ = infinity;
@@ -445,7 +446,7 @@ public:
       }
       next(value);
    }
-   /// No loop has the force, and none has one beyond `limit`.
+   /// No loop has the force, nor any force beyond `limit`.
    void slides(double limit)
    {
       high_ = sliding = std::min(force, limit > low_ ? limit : force);
@@ -453,7 +454,7 @@ public:
       side_ = 0;
       next(1);
    }
-   /// Do both ends agree? The largest loop before the joint slides is needed less exactly.
+   /// Do both ends agree? The largest loop before the joint slides need not be so accurate.
    bool closed() const
    {
       const double allowed = std::isnan(sliding) ? 1e-9 : std::max(1e-9, 100 * tolerance_);
@@ -466,7 +467,7 @@ public:
 private:
    void next(double value)
    {
-      // A structure in which nothing slips is linear, and a joint that does is softer.
+      // A structure in which nothing slips is linear, and a joint that slips is softer.
       if (low_ == 0 && std::isnan(sliding)) { force /= std::pow(value, power_); }
       else if (std::isfinite(at_high_) && low_ > 0)
       {
@@ -513,7 +514,7 @@ ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
    const auto off = [&](double force, double half)
    {
       const double value = value_of(force, half);
-      // The largest loop before the joint slides is asked for as it is.
+      // Accepts the largest loop before the joint slides, whatever its size.
       return std::abs(value - 1) <= settings.tolerance || slides.size() > 0 ? 0
                                                                             : std::log(value);
    };

@@ -95,7 +95,7 @@ struct VibratingStructure::Parts
    std::vector<double> thickness;  ///< of each body
    std::vector<RowMatrix> motions; ///< of each body: dofs × coordinates
    RowMatrix K, M;                 ///< of all coordinates
-   std::vector<int> rest;          ///< coordinates that are no relative displacements
+   std::vector<int> rest;          ///< coordinates that are not relative displacements
    std::vector<int> relative;      ///< coordinate of each row {v; w} of the problem, -1: held
 
    /// Forces on the dofs of all bodies as forces on the coordinates.
@@ -111,14 +111,14 @@ struct VibratingStructure::Parts
    void add_body(const Reduction &reduction, const ContactMotions &contact, std::size_t b,
                  int first_column, int columns);
    void add_shank(const Reduction &reduction, const Bolt &bolt);
-   /// All that the coordinates beside the relative displacements answer: K_rr⁻¹ f_r, where
-   /// motions that nothing resists are left at rest.
+   /// The displacements of all coordinates except the relative displacements, K_rr⁻¹ f_r.
+   /// Motions that nothing resists are left at rest.
    class Answer;
    void check(const ReducedProblem &problem, const Answer &answer) const;
 };
 
-/// Solves with the stiffness of the coordinates that are no relative displacements: all contact
-/// nodes are clamped.
+/// Solves with the stiffness of the coordinates that are not relative displacements: all
+/// contact nodes are clamped.
 class VibratingStructure::Parts::Answer
 {
 public:
@@ -127,7 +127,7 @@ public:
         factor_(view_of(parts.K), keep_, 0, 0.0)
    {
    }
-   /// Of all coordinates; those at rest are 0.
+   /// Displacements of all coordinates; those at rest are 0.
    VectorXd solve(const VectorXd &forces) const
    {
       VectorXd x = VectorXd::Zero(parts_.K.rows());
@@ -136,8 +136,8 @@ public:
    }
 
 private:
-   /// Where the structure floats as many coordinates are held as it has motions. Loads on it
-   /// balance each other, so that these carry nothing.
+   /// If the structure floats, as many coordinates are held as it has free motions. Loads on it
+   /// balance each other, so that held coordinates carry no force.
    static std::vector<int> without_pins(const Parts &parts, const MatrixXd &rigid)
    {
       if (rigid.cols() == 0) { return parts.rest; }
@@ -162,14 +162,14 @@ private:
 };
 
 /// The columns of a body: each dof beyond the contact is a coordinate of its own, as is each
-/// block; the coordinates of the contact stand behind those of all bodies.
+/// block; the coordinates of the contact come after those of all bodies.
 void VibratingStructure::Parts::add_body(const Reduction &reduction,
                                          const ContactMotions &contact, std::size_t b,
                                          int first_column, int columns)
 {
    const AssembledBody &body = bodies[b].body;
    const std::vector<int> dofs = contact_dofs_of(reduction.bodies[b]);
-   std::vector<bool> other(body.K.size(), true); // neither fixed nor of the contact
+   std::vector<bool> other(body.K.size(), true); // neither fixed nor in contact
    for (int dof : body.fixed) { other[dof] = false; }
    for (int dof : dofs)
    {
@@ -252,7 +252,7 @@ void VibratingStructure::Parts::add_shank(const Reduction &reduction, const Bolt
    K += spring;
 }
 
-/// The stiffness of the problem must be what the bodies have, for one displacement of all
+/// The stiffness of the problem must agree with that of the bodies, for one displacement of all
 /// nodes.
 void VibratingStructure::Parts::check(const ReducedProblem &problem, const Answer &answer) const
 {
@@ -289,7 +289,7 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
    const ContactMotions contact = contact_motions(reduction);
    Parts &parts = *parts_;
    parts.bodies = std::move(bodies);
-   int own = 0; // coordinates that are none of the contact
+   int own = 0; // coordinates that do not belong to the contact
    for (std::size_t b = 0; b < parts.bodies.size(); ++b)
    {
       const AssembledBody &body = parts.bodies[b].body;
@@ -345,7 +345,8 @@ double VibratingStructure::mass() const
    for (std::size_t b = 0; b < parts_->bodies.size(); ++b)
    {
       const VibratingBody &body = parts_->bodies[b];
-      // Along the last component: about an axis radial displacements are no common motion.
+      // Along the last component, because radial displacements about an axis are not a common
+      // motion.
       const std::vector<int> &component = body.body.places.component;
       const int last = *std::max_element(component.begin(), component.end());
       VectorXd r = VectorXd::Zero(body.M.size());
@@ -367,8 +368,9 @@ Modes VibratingStructure::modes(const GluedRows &glued, int count) const
    {
       if (!glued[row] && parts.relative[row] >= 0) { keep.push_back(parts.relative[row]); }
    }
-   // Small against the lowest frequencies of a body as long as it is wide, large against the
-   // round-off of the highest ones, so that the shifted stiffness is definite.
+   // Small compared with the lowest frequencies of a body as long as it is wide, and large
+   // compared with the round-off of the highest ones, so that the shifted stiffness is
+   // definite.
    double stiff = 0, heavy = 0;
    const VectorXd k = parts.K.diagonal(), m = parts.M.diagonal();
    for (int c : keep)
@@ -465,8 +467,8 @@ ReducedProblem VibratingStructure::with_modes(const Modes &modes) const
    const Parts::Answer answer(parts, modes.rigid_coordinates);
    parts.check(problem, answer);
 
-   // 2. Forces M φ with all contact nodes clamped: what these carry, and how far the bodies
-   // give way.
+   // 2. Forces M φ with all contact nodes clamped: the forces on these nodes, and the
+   // displacements of the bodies.
    problem.H.conservativeResize(loads + count, loads + count);
    problem.H.bottomRows(count).setZero();
    problem.H.rightCols(count).setZero();
