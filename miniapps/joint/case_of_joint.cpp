@@ -23,18 +23,17 @@ CaseOfJoint::CaseOfJoint(Study &study)
       {"smooth", "as meshed"});
    study.option(&bodies, "bodies", "Bodies by their names, as JSON; each must have a density.",
                 Text::structure);
-   study.option(&interfaces, "interfaces", "Where they touch, by names, as JSON.",
-                Text::structure);
+   study.option(&interfaces, "interfaces",
+                "Interfaces where bodies touch, by their names, as JSON.", Text::structure);
    study.option(&bolts, "bolts",
                 "Bolts, which pull two parts together, by their names, as JSON.",
                 Text::structure);
-   study.option(&points, "points", "Places for option --amplitude-at, by names, as JSON.",
+   study.option(&points, "points", "Points for option --amplitude-at, by their names, as JSON.",
                 Text::structure);
-   study.option(
-      &units, "units",
-      "Names of the units of length and force, as JSON; they are printed, and nothing "
-      "is converted.",
-      Text::structure);
+   study.option(&units, "units",
+                "Names of the units of length and force, as JSON. They are printed; numbers "
+                "are not converted.",
+                Text::structure);
    study.options().add_set();
    study.option(&order, "order", "Order of the elements.", within(1, 8));
    study.option(&history, "history",

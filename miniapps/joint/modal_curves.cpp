@@ -155,7 +155,7 @@ std::string with_slope(const std::string &name, double slope)
 ModalCurves::ModalCurves(Study &study) : study_(study)
 {
    study.options().group("Modes and amplitudes");
-   study.option(&modes_, "modes", "Number of modes, the lowest.", at_least(1));
+   study.option(&modes_, "modes", "Number of modes, from the lowest one on.", at_least(1));
    study.option(
       &amplitudes_, "amplitudes",
       "Amplitudes, as a range in equal ratios, '1e-7 … 1e-4' (or ... in its place), or a "
@@ -169,8 +169,8 @@ ModalCurves::ModalCurves(Study &study) : study_(study)
       "mode at the point of --amplitude-at).",
       {"modal", "energy", "point"});
    study.option(&shown_, "shown-amplitude",
-                "Amplitude whose loop and whose losses along the interfaces are drawn, the "
-                "nearest one of the list (default: the largest).",
+                "Amplitude whose loop and losses along the interfaces are drawn: the nearest "
+                "one of the list (default: the largest).",
                 positive);
    study.option(&at_, "amplitude-at",
                 "Name of a point of the case: its displacement is in the table, and with "
@@ -204,9 +204,9 @@ Modes ModalCurves::report_modes(const VibratingStructure &structure,
    study_.results["nodes_open"] = open;
    study_.results["nodes_at_limit"] = limit;
    study_.results["rigid_modes_left_out"] = modes.rigid;
-   study_.say(text("   %ld contact nodes are glued, %d of them stand at the limit of friction, "
-                   "and %d are open",
-                   static_cast<long>(problem.nodes() - open), limit, open));
+   study_.say(text(
+      "   %ld contact nodes are glued, %d of them at the limit of friction, and %d are open",
+      static_cast<long>(problem.nodes() - open), limit, open));
    if (modes.rigid > 0) { study_.say(text("   %d rigid motions are left out", modes.rigid)); }
    ResultTable &table = study_.table(
       "modes", {{"mode", "mode"},

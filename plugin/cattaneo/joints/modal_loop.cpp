@@ -172,7 +172,7 @@ public:
 
    std::vector<LoopPoint> points; ///< of the present cycle
    int count = 0;                 ///< ended ones
-   double change = 0;             ///< of the last cycle, relative to its displacements
+   double change = 0;             ///< of the last cycle, relative to its range
    bool steady = false;           ///< the last one
    bool ratchets = false;         ///< each cycle adds the same displacements
    bool can_jump = false;         ///< can the limit of the cycles be foreseen?
@@ -497,10 +497,10 @@ ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
    require(problem.knows_loads(),
            "modal loop: the response H of the loads is not known, must be");
    require(settings.cycles >= 2, "modal loop: cycles is ", settings.cycles,
-           ", must be at least 2, since the first is not steady");
+           ", must be at least 2, because the first cycle is not steady");
    require(state.multipliers.size() == static_cast<Index>(problem.patterns.size()) &&
               state.multipliers[k] == 0,
-           "modal loop: the state has not the loads of the problem, or that of '", load,
+           "modal loop: the state does not have the loads of the problem, or that of '", load,
            "' is not zero");
    const Swings swings(solver, problem, k, settings);
    const bool by_energy = settings.size == LoopSize::energy;
@@ -563,7 +563,7 @@ ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
       {
          message << "not steady after " << best.cycle
                  << " cycles, the last one still changed the state by " << best.change
-                 << " of what moves in it";
+                 << " of its range";
       }
       best.message = message.str();
    }
@@ -573,8 +573,8 @@ ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
                                                : FrictionStatus::gross_sliding;
       best.sliding_force = search.sliding;
       best.message = std::isnan(search.sliding)
-                        ? "no loop of the size that is asked for was found"
-                        : "the joint slides as a whole before a loop is so large: " + slides;
+                        ? "no loop of the requested size was found"
+                        : "the joint slides as a whole before a loop has this size: " + slides;
    }
    return best;
 }
