@@ -113,7 +113,7 @@ def draw_lines(axes, comments, rows):
     axes.set_axisbelow(True)
     for line in axes.get_lines():  # not visible on a logarithmic axis
         if comments["scale"] and comments["scale"][0] != "semilogx" and len(line.get_ydata()) and not max(line.get_ydata()) > 0:
-            line.set_label(f"{line.get_label()} (zero)")
+            line.set_label(f"{line.get_label()} (zero, not on this axis)")
     said = labelled - {""}
     if len(labelled) > 1 or said and not said & set(comments["y"][0].split()):  # the axis names a single curve
         legend_below(axes)
@@ -252,7 +252,8 @@ def draw_field(axes, comments, rows):
         grid[y.index(value(row["y"]))][x.index(value(row["x"]))] = value(row["value"])
     # Levels are round numbers up to the largest value, because readers look for that value.
     values = [value(row["value"]) for row in rows]
-    levels = [float(f"{level:.10g}") for level in MaxNLocator(14).tick_values(min(values), max(values))]
+    least, most = map(float, comments["range"][0].split(",")) if comments["range"] else (min(values), max(values))
+    levels = [float(f"{level:.10g}") for level in MaxNLocator(14).tick_values(least, most)]
     shades = axes.contourf(x, y, grid, levels, cmap="viridis")
     labelled = axes.contour(x, y, grid, levels[2:-1:3], colors="white", linewidths=0.7)
     axes.clabel(labelled, fmt="%g", fontsize=8)
@@ -270,6 +271,8 @@ def draw_scene(axes, comments, rows):
     for item, parts in items.items():
         x, y, dx, dy = zip(*parts)
         kind = item.split()[0]
+        if kind == "gap" and not any(dx) and not any(dy):
+            continue  # nothing to be seen of it
         if kind in ("body", "gap"):
             colour = "black" if kind == "gap" else of_body[item]
             axes.add_collection(LineCollection([[(a, b), (a + c, b + d)] for a, b, c, d in parts], colors=colour,
@@ -341,6 +344,8 @@ def finish(axes, comments):
         axes.invert_xaxis()
     for axis, kind, limits in ((axes.xaxis, axes.get_xscale(), axes.get_xlim()), (axes.yaxis, axes.get_yscale(), axes.get_ylim())):
         if kind == "linear":
+            if axis is axes.xaxis:
+                axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10], integer=one.get("x") in ("cycle", "cycles")))
             one_power(axis, max(map(abs, limits)))
 
 
@@ -412,7 +417,8 @@ def drawn_panels(run, names=None):
                 panels.append(less)
             continue
         for series in OrderedDict.fromkeys(row["series"] for row in rows):
-            own = defaultdict(list, said, title=[f"{said['title'][0]}, {series}"])
+            values = [value(row["value"]) for row in rows]  # one scale of colours for all of them
+            own = defaultdict(list, said, title=[f"{said['title'][0]}, {series}"], range=[f"{min(values):.9g},{max(values):.9g}"])
             panels.append((own, [row for row in rows if row["series"] == series]))
     return panels
 
@@ -431,7 +437,7 @@ def sheet(panels, title=""):
             finish(axes, said)
         if title:
             made.suptitle(title, fontsize=11, fontweight="bold", x=0.01, ha="left")
-        made.tight_layout(rect=(0, 0, 1, 1 - 0.04 / height if title else 1))
+        made.tight_layout(rect=(0, 0, 1, 1 - 0.06 / height if title else 1))
     return made
 
 
