@@ -54,11 +54,14 @@ CaseOfJoint::CaseOfJoint(Study &study)
 
 JointCase CaseOfJoint::joint() const
 {
-   return joint_case({analysis, structure("bodies", bodies),
-                      structure("interfaces", interfaces), structure("bolts", bolts),
-                      structure("points", points), structure("units", units), geometry,
-                      thickness},
-                     order);
+   const JointCase made =
+      joint_case({analysis, structure("bodies", bodies), structure("interfaces", interfaces),
+                  structure("bolts", bolts), structure("points", points),
+                  structure("units", units), geometry, thickness},
+                 order);
+   require(!made.in_space(), "key 'analysis' is '", analysis,
+           "', must be plane strain, plane stress or axisymmetric for the program joint");
+   return made;
 }
 
 void CaseOfJoint::name_units(Study &study, const JointCase &joint) const

@@ -53,3 +53,8 @@ def test_it_is_said_where_units_cannot_be(run):
     assert "speed of sound" in got.warned() and "body nut" in got.warned()
     assert "speed of sound" not in run.case(changed(shipped("bolted_joint"), {"units": {"length": "mm", "force": "N"}}),
                                             "--modes", 1, "--amplitudes", "1e-7", program="joint").warned()
+
+
+def test_bodies_in_space_are_refused(run):
+    error = run.case(shipped("sphere_on_block"), program="joint", code=1).error
+    assert "key 'analysis' is 'space', must be plane strain, plane stress or axisymmetric" in error, error
