@@ -491,7 +491,7 @@ TEST_F(Exchange, SupportsAndLoadsByName)
                       "forces and displacements");
    expect_input_error([&] { block.fix({99}, 1); }, "there is no node 99");
    expect_input_error([&] { block.fix({1}, 3); }, "direction 3, must be 1 or 2");
-   expect_input_error([&] { block.nodes_of("side"); }, "there are BLOCK, BOTTOM, TOP");
+   expect_input_error([&] { block.nodes_of("side"); }, "must be one of: BLOCK, BOTTOM, TOP");
    const NodalStiffness lower = read_stiffness(folder + "abaqus.mtx");
    NodalStiffness moved = lower;
    moved.fix(lower.nodes_of("FLOOR"), 1); // held already
@@ -967,7 +967,7 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
            {"coordinate real symmetric\n", "2 2 2\n1 1 1\n3 1 1\n",
             "entry (3, 1), must be within 2×2"},
            {"coordinate real symmetric\n", "2 2 2\n1 1 1\n2 2 1\n2 1 1\n",
-            "more entries than 2"},
+            "there are more entries than the 2 that the file states"},
            {"coordinate complex symmetric\n", "", "must be %%MatrixMarket matrix coordinate"},
            {"coordinate real symmetric\n", "", "ends before the size"},
            {"coordinate real symmetric\n", "999999999 999999999 1\n",
@@ -986,7 +986,8 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
    write_whole("m.mtx", banner + "array real general\n2 2\n1\n0\n0\n1\n");
    for (const Mistake &m : std::vector<Mistake>{
            {"", "1 1 0 0\n1 2 1 0\n", "node 1 is at (1, 0), and was at (0, 0) before"},
-           {"", "1 1 0 0\n1 1 0 0\n", "direction 1 of node 1 has a second row 1"},
+           {"", "1 1 0 0\n1 1 0 0\n",
+            "direction 1 of node 1 has a second row, 1, must have one only"},
            {"", "1 1 0 0\n1 2 0\n", "line 2: '1 2 0', must be node, direction, x and y"},
            {"", "1 1 0 0\n1 2 0 0\nfixed 3 1\n", "node 3 direction 1 has no row"},
            {"", "1 1 0 0\n1 2 0 0\nhold 3 1\n", "'hold 3 1', must be axisymmetric"},
@@ -1005,7 +1006,7 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
            {"", "*NODE\n1, 0.\n", "line 2: *NODE has 2 fields"},
            {"", "*NODE\n1, 0., 0., 3.\n2, 1., 0.\n",
             "node 2 is at z = 0, the first one at 3, all must be in one plane"},
-           {"", "*NODE\n1, 0., 0.\n*NGEN\n1, 5\n", "*NGEN makes or moves nodes"},
+           {"", "*NODE\n1, 0., 0.\n*NGEN\n1, 5\n", "*NGEN generates or moves nodes"},
            {"", "*NODE, INPUT=nodes.txt\n", "*NODE has its lines in a file of its own"},
            {"", "*NODE, SYSTEM=C\n1, 0., 0.\n", "cylindrical coordinates"},
            {"", "*NODE\n1, 0., 0.\n1, 0., 0.\n", "line 3: node 1 is there a second time"},

@@ -929,9 +929,10 @@ TEST_F(Interfaces, RefuseWhatDoesNotFit)
    };
    refused({{"flank", {0, one}, {2, two}}},
            "interface 'flank': a side names body 2, must be from 0 to 1");
-   refused({{"flank", {0, one}, {1, one}}},
-           "interface 'flank' of body 'pad' and body 'disc': the node (0, 0) is none that body "
-           "'disc' was not condensed to");
+   refused(
+      {{"flank", {0, one}, {1, one}}},
+      "interface 'flank' of body 'pad' and body 'disc': body 'disc' was not condensed to the "
+      "node (0, 0), must be");
    refused({{"floor", {1, two}, {}}}, "body 'pad' is in no interface");
    refused({}, "2 bodies and 0 interfaces");
    Truss overlapping({side({2, 0.3}, {0, 0.3}, 4)}, {1, -1});

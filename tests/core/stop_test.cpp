@@ -221,7 +221,8 @@ TEST(Streaming, AHistoryIsGoneOnWithOnlyIfItIsTheSame)
    expect_input_error([&] { HistoryWriter(file, problem, state); }, "belongs to another march");
    EXPECT_EQ(content(file), before);
    problem.patterns[1].name = "other";
-   expect_input_error([&] { HistoryWriter(file, problem, state); }, "displacement other");
+   expect_input_error([&] { HistoryWriter(file, problem, state); },
+                      "displacement per unit of other");
    problem.patterns[1].name = "a\nb";
    expect_input_error([&] { HistoryWriter(file, problem, state); }, "has a line break");
    EXPECT_EQ(content(file), before);

@@ -104,7 +104,7 @@ def test_loads_that_look_alike_are_not_added(run):
         near(row["lowest_pressure"], alone, 1e-4 * alone)
     # The bonded ratio does not depend on the size of the load, its strength does.
     strip = "plane_receding -spacing 0.1 -corner 0.02"
-    near(run.line(strip + " -map '4 4.0000001' -map-friction 0.7")["lowest_bonded_pressure"],
+    near(run.line(strip + " -map-overhang '4 4.0000001' -map-friction 0.7")["lowest_bonded_pressure"],
          run.line(strip)["lowest_bonded_pressure"], 1e-9)
     joint = run.line("lap_joint -map-load 0.02 -map-width '1 1.0000001' -spacing 0.05 -increments 10")
     assert joint["sweep"]

@@ -101,8 +101,8 @@ TEST(MfemDoors, ForcesThatDoNotFitAreRefused)
    mfem::Vector forces(size - 1);
    forces = 0.0;
    expect_input_error([&] { body.add_forces("P", forces); },
-                      "forces 'P': " + std::to_string(size - 1) + " are given, must be " +
-                         std::to_string(size));
+                      "forces 'P': " + std::to_string(size - 1) +
+                         " values are given, must be " + std::to_string(size));
    forces.SetSize(size);
    forces = 0.0;
    forces(3) = nan_value;
@@ -113,7 +113,7 @@ TEST(MfemDoors, ForcesThatDoNotFitAreRefused)
    mfem::FiniteElementSpace other(&mesh, &collection, 2);
    mfem::LinearForm form(&other);
    form.Assemble();
-   expect_input_error([&] { body.add_forces("P", form); }, "not the body's");
+   expect_input_error([&] { body.add_forces("P", form); }, "must be on the space of the body");
    mfem::LinearForm forgotten(&body.space());
    mfem::Vector pull({1.0, 0.0});
    mfem::VectorConstantCoefficient traction(pull);
@@ -463,7 +463,7 @@ TEST(MfemDoors, InitialStrainsThatNothingCouldMeanAreRefused)
    expect_input_error([&] { body.add_initial_strain("T", skew); }, "must be finite, symmetric");
    expect_input_error([&] { body.add_initial_strain("T", nan_value); }, "must be finite");
    ElasticBody twisting(mesh, 1, Material{}, Formulation::torsion);
-   expect_input_error([&] { twisting.add_initial_strain("T", 1.0); }, "the body twists");
+   expect_input_error([&] { twisting.add_initial_strain("T", 1.0); }, "the body is of torsion");
    ElasticBody own(body.space(), body.stiffness());
    expect_input_error([&] { own.add_initial_strain("T", 1.0); },
                       "stiffness that was given as a matrix");

@@ -160,7 +160,8 @@ TEST(ObstacleMotion, OfAStackIsTheOppositeMotionOfItsTop)
          obstacle.add_obstacle_motion("d", {{2, 0.0, 1.0}});
       },
       "interface 2, must be 0 to 1");
-   expect_input_error([&] { obstacle.add_obstacle_motion("d", 0.0, 1.0); }, "is of 2 bodies");
+   expect_input_error([&] { obstacle.add_obstacle_motion("d", 0.0, 1.0); },
+                      "the reduction has 2 bodies, must have one");
 }
 
 TEST(ObstacleMotion, ConjugatesAreReactionAndDisplacementOfTheWholeBody)
@@ -270,7 +271,8 @@ TEST(ObstacleMotion, RefusesWhatMeansNothing)
    const ContactLine line1 = contact_line(body, 1), line2 = contact_line(below, 3);
    Reduction two =
       reduce(condense(body, line1), condense(below, line2), pair_lines(line1, line2));
-   expect_input_error([&] { two.add_obstacle_motion("d", 0.0, 1.0); }, "is of 2 bodies");
+   expect_input_error([&] { two.add_obstacle_motion("d", 0.0, 1.0); },
+                      "the reduction has 2 bodies, must have one");
 }
 
 } // namespace
