@@ -6,8 +6,8 @@
 //  program prescribes the rotation of the top, of its loaded part or of the rim (the torque
 //  may then pass a maximum), or the torque itself, as a shear on the loaded part. The torque
 //  of steady spinning is T_s = f Σ r p, with the pressure of the contact without friction.
-//  Units t = p0 = E = 1: rotations are in p0/E, torques in p0 t³ and over the whole
-//  circumference.
+//  Units: t = p0 = E = 1. Rotations are in p0/E. Torques are in p0 t³ and are those of the
+//  whole circumference.
 //
 //  Sample runs:
 //    axisymmetric_receding
@@ -244,15 +244,18 @@ void axisymmetric_receding(Study &study)
    study.option(&disc.steps, "increments",
                 "Number of steps from zero to the full load P0, or to T_s.", at_least(2));
    study.options().group("More results");
-   study.option(&bonded_a, "bonded", "Bonded disc: list of a to report.");
-   study.option(&map_a, "map-load-radius", "Map of c and d: list of a (empty: none).");
-   study.option(&map_f, "map-friction", "Map of c and d: list of f.", positive);
-   study.option(&discs, "critical", "Critical radius of the load: list of b (empty: none).",
+   study.option(&bonded_a, "bonded", "Values of a for which the bonded disc is reported.");
+   study.option(&map_a, "map-load-radius", "Values of a of a map of c and d (empty: no map).");
+   study.option(&map_f, "map-friction", "Values of f of the map of c and d.", positive);
+   study.option(&discs, "critical",
+                "Values of b for which the critical radius of the load is found (empty: none).",
                 at_least(1));
-   study.option(&critical_f, "critical-friction", "Critical radius of the load: list of f.",
+   study.option(&critical_f, "critical-friction",
+                "Values of f for which the critical radius of the load is found.",
                 not_negative);
-   study.option(&critical_bonded, "critical-bonded",
-                "Critical radius of the load: also for the bonded disc (ill-conditioned).");
+   study.option(
+      &critical_bonded, "critical-bonded",
+      "Finds the critical radius of the load also for the bonded disc (ill-conditioned).");
    study.options().renamed(
       {{"steps", "increments"}, {"load-cycles", "cycles"}, {"map", "map-load-radius"}});
    study.parse();

@@ -2,8 +2,8 @@
 //
 //  Reads meshes (MFEM, Gmsh, ABAQUS or CalculiX), condenses each to the nodes of its interfaces
 //  and marches a load history with Coulomb friction. A JSON case file names bodies, interfaces,
-//  bolts and loads: docs/contact.md describes it. Units are the user's: forces are per unit
-//  thickness.
+//  bolts and loads: docs/contact.md describes it. Any consistent units will do. Forces of plane
+//  cases are per unit thickness, unless --thickness is given.
 //
 //  Sample runs:
 //    contact --case meshes/bolted_joint.json
@@ -107,8 +107,9 @@ struct CaseOptions
       study.option(&order, "order", "Order of the elements.", within(1, 8));
       study.option(&edges, "edges",
                    "Times of two states, after pressing and at the peak of the cyclic loads: "
-                   "prints K_N, K_T and slip at the edges of contact. With a third time, the "
-                   "other end of the cycle, the energy loss at the edges is printed too.");
+                   "prints the intensities of pressure and shear (K_N, K_T) and the slip at "
+                   "the edges of contact. With a third time, the other end of the cycle, the "
+                   "energy loss at the edges is printed too.");
       study.option(&paraview, "paraview", "Folder for ParaView files.", Text::folder);
    }
 

@@ -102,7 +102,7 @@ void design_contact(Study &study)
    int lines = 0, starts = 1;
    DesignSettings settings;
    study.options().group("The contact");
-   study.option(&chosen.scene, "scene", "Pad on a half-plane, or square punch on one.",
+   study.option(&chosen.scene, "scene", "Pad or square punch on a half-plane.",
                 {"pad", "punch"});
    study.options().group("Choice and goal");
    study.option(&choice.profile, "profile",
@@ -125,11 +125,12 @@ void design_contact(Study &study)
                 "Coefficient of friction; default: 0.3, with --reduced that of the file.",
                 positive);
    study.options().group("Choice and goal");
-   study.option(&choice.most, "most",
-                "Largest change of a gap relative to the node that touches (for held bodies: "
-                "largest addition to it), largest part of each power of the crown, or largest "
-                "1/R. With --choose: largest change of a load.",
-                positive);
+   study.option(
+      &choice.most, "most",
+      "Largest change of a gap relative to the node that touches (for held bodies: "
+      "largest addition to the gap), largest part of each power of the crown, or largest "
+      "1/R. With --choose: largest change of a load.",
+      positive);
    study.option(&choice.curvature, "curvature",
                 "Largest curvature of the gap; default: no limit.", positive);
    study.options().group("The contact");

@@ -1,12 +1,12 @@
 //  fretting: will a crack grow from the edge of this contact? Slip, yield, threshold and energy
 //
-//  A pad is pressed on a specimen (P), sheared (Q) and the specimen is pulled (bulk stress), in
-//  a cycle between the peak load and R times it, at constant P. All this acts on the edge of an
-//  incomplete contact only through two numbers: K_N, how fast the pressure rises, and K_T, how
-//  strong the shear would be if nothing slipped. From them follow the slip zone, the stresses,
-//  the growth of a crack normal to the surface, the Kitagawa-Takahashi verdict and the
-//  frictional energy. The pad 'fe' finds the two numbers in a finite element solution of the
-//  contact, and compares the slip zone and the energy of the formulas with those of this
+//  A constant force P presses a pad on a specimen. A shear force Q and a bulk stress in the
+//  specimen cycle together between their peak and R times the peak. All this acts on the edge
+//  of an incomplete contact only through two numbers: K_N, how fast the pressure rises, and
+//  K_T, how strong the shear would be if nothing slipped. From them follow the slip zone, the
+//  stresses, the growth of a crack normal to the surface, the Kitagawa-Takahashi verdict and
+//  the frictional energy. The pad 'fe' finds the two numbers in a finite element solution of
+//  the contact, and compares the slip zone and the energy of the formulas with those of this
 //  solution. Multiaxial criteria on critical planes use the stresses of its steady cycle,
 //  averaged over a depth.
 //
@@ -75,20 +75,20 @@ void assess_pad(Study &study)
    double depth = none, young = none, poisson = none, threshold = none, limit = none,
           yield = none;
    study.options().group("The pad");
-   study.option(
-      &pad.kind, "pad",
-      "hertz (cylinder on flat), flat-rounded, fe (either, solved on half-planes), or kn (K_N "
-      "and K_T given).",
-      {"hertz", "flat-rounded", "fe", "kn"});
+   study.option(&pad.kind, "pad",
+                "hertz (cylinder on flat), flat-rounded, fe (either of these two, computed "
+                "with finite elements of the contact on half-planes), or kn (K_N "
+                "and K_T given).",
+                {"hertz", "flat-rounded", "fe", "kn"});
    study.option(&pad.radius, "radius", "Radius of the pad or of its edges, mm.");
    study.option(&pad.flat, "flat", "Half width of the flat, mm (flat-rounded, fe).");
    study.options().group("The loads");
    study.option(&pad.normal, "normal-load", "Normal force, N/mm, constant (not for kn).");
    study.option(&pad.shear, "shear-load",
                 "Shear force on the specimen at peak load, N/mm (not for kn).");
-   study.option(
-      &pad.bulk, "bulk",
-      "Bulk stress in the specimen at peak load, MPa (default: none, with a remark).");
+   study.option(&pad.bulk, "bulk",
+                "Bulk stress in the specimen at peak load, MPa (default: it is left out, and a "
+                "remark in the output says so).");
    study.option(&pad.bulk_pad, "bulk-pad", "Bulk stress in the pad at peak load, MPa.");
    study.option(&pad.load_ratio, "load-ratio",
                 "Load ratio R of shear and bulk stress, least over peak value, -1 <= R < 1.");
@@ -101,9 +101,10 @@ void assess_pad(Study &study)
       &pad.half_width, "half-width",
       "Half width of the contact, mm (pad kn; used only for the checks of validity).");
    study.options().group("Finite elements");
-   study.option(&pad.nodes, "nodes",
-                "Contact nodes (pad fe); for a pad with a flat, those near its two edges "
-                "together, and nodes on the flat between them come in addition.");
+   study.option(
+      &pad.nodes, "nodes",
+      "Number of contact nodes (pad fe). For a pad with a flat: the number near its two edges "
+      "together. The nodes on the flat between the edges come in addition.");
    study.option(&pad.order, "order", "Order of the elements (pad fe).", within(1, 8));
    study.option(
       &depth, "averaging-depth",
@@ -123,10 +124,11 @@ void assess_pad(Study &study)
                 Check{[](double E) { return E > 0 && E < 2000; },
                       "must be positive and below 2000 (GPa, not MPa)"});
    study.option(&poisson, "poisson", "Poisson's ratio (default: the record's).");
-   study.option(&threshold, "threshold",
-                "Threshold dK_th, MPa sqrt(m): a range or an amplitude, as in the material's "
-                "record, which has the fatigue limit likewise.",
-                positive);
+   study.option(
+      &threshold, "threshold",
+      "Threshold dK_th, MPa sqrt(m): a range or an amplitude, whichever the material's "
+      "record has. The same holds for --fatigue-limit.",
+      positive);
    study.option(&limit, "fatigue-limit", "Plain fatigue limit, MPa.");
    study.option(&yield, "shear-yield", "Yield stress in pure shear, MPa.");
    study.option(&pad.plane_stress, {"plane-stress", "plane-strain"},

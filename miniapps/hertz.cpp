@@ -4,8 +4,8 @@
 //  square block (side 2a) with that gap on a similar half-plane. E' = E/(1-ν²) = 1 for each
 //  body, so that E* = 1/2. The unit of length is the Hertz half-width b with half-planes, and
 //  a with the block. The computed pressure and shear are compared with the closed forms node
-//  by node. Slip and pressure of the block are coupled, so that its contact really differs
-//  from them.
+//  by node. Slip and pressure of the block are coupled, so its contact really differs from
+//  the closed forms.
 //
 //  Sample runs:
 //    hertz

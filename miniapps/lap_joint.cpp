@@ -1,10 +1,11 @@
 //  lap_joint: two laps pinched by bolts and pulled, in cycles; slip, dissipation, rows of bolts
 //
-//  Thesis chapter 6 and 8.2 (3). Two equal laps, each t/2 thick, overlap by the protrusion on
-//  both sides of the bolt. The bolt is a pressure p0 over the width w on both outer faces, P0 =
-//  p0 w. Then a remote load T cycles 0 → Tmax → 0. The contact recedes to |x| < a, and stick is
-//  |x| < c. Forward slip is +x of the upper lap, whose loaded end is at -x. Units t = p0 =
-//  E' = 1, E' = E/(1-ν²); dissipation D E'/P0² a cycle.
+//  Thesis, chapter 6, and item 3 of section 8.2. Two equal laps, each t/2 thick, overlap by the
+//  protrusion on both sides of the bolt. The bolt is a pressure p0 over the width w on both
+//  outer faces, P0 = p0 w. Then a remote load T cycles 0 → Tmax → 0. The contact recedes to
+//  |x| < a, and stick is |x| < c. Forward slip is +x of the upper lap, whose loaded end is at
+//  -x. Units: t = p0 = E' = 1, with E' = E/(1-ν²). The dissipation D of a cycle is printed as
+//  D E'/P0².
 //
 //  Sample runs:
 //    lap_joint
@@ -283,7 +284,8 @@ void lap_joint(Study &study)
       &joint.load, "load",
       "Largest remote load Tmax/P0, tension positive, with P0 = p0 w and the w of --width.");
    study.option(&joint.cycles, "cycles",
-                "Largest number of cycles; the march stops when they are steady.", at_least(1));
+                "Largest number of cycles. The march ends earlier when they are steady.",
+                at_least(1));
    study.option(&all_cycles, {"all-cycles", "stop-when-steady"}, "March all cycles.");
    study.option(&joint.settings.increments, "increments",
                 "Load increments from 0 to Tmax, and as many back.", at_least(1));
@@ -301,9 +303,11 @@ void lap_joint(Study &study)
       at_least_below(0, 1));
    study.options().group("More results");
    study.option(&loads, "map-load",
-                "Map: values of T/P0 (empty: none), with P0 of --width for all widths.");
-   study.option(&frictions, "map-friction", "Map: values of f (empty: --friction).", positive);
-   study.option(&widths, "map-width", "Map: values of w/t (empty: --width).");
+                "Loads T/P0 of a map over load, friction and width (empty: no map). P0 is that "
+                "of --width for all widths.");
+   study.option(&frictions, "map-friction", "Values of f of the map (empty: --friction).",
+                positive);
+   study.option(&widths, "map-width", "Values of w/t of the map (empty: --width).");
    study.options().group("The mesh");
    study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",

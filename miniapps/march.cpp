@@ -1,7 +1,8 @@
 //  march: any saved reduced problem through a load history, in cycles, by the method you choose
 //
-//  Reads a reduced problem (docs/reduced_problems.md): what a study wrote with --save, one of
-//  problems/, or matrices of your own, which need no mesh. Units are those of the file.
+//  Reads a reduced problem (docs/reduced_problems.md): a file that a study wrote with --save,
+//  one of those in problems/, or matrices of your own, which need no mesh. Units are those of
+//  the file.
 //
 //  Sample runs:
 //    march --case problems/sliders.case.json

@@ -5,7 +5,7 @@
 //  zone. ξ = x - n t is counted from the end of the load, s = -ξ at separation, e = -ξ at the
 //  border of stick. Loading is self-similar: one increment is exact. Unloading is marched with
 //  steps that shrink with the load. Forward slip is +x of the strip; loading drags it to -x,
-//  "backward". Units t = p0 = E' = 1, E' = E/(1-ν²).
+//  "backward". Units: t = p0 = E' = 1, with E' = E/(1-ν²).
 //
 //  Sample runs:
 //    plane_receding
@@ -207,7 +207,7 @@ void plane_receding(Study &study)
    study.options().group("The mesh");
    study.option(&options.domain, "domain", domain_help, none_or_above(1));
    study.option(&options.side, "side",
-                "Length of the block beyond the strip's end in t (0: as long as its depth).");
+                "Length of the block beyond the strip's end in t (0: the depth of the block).");
    study.options().group("The contact");
    study.option(&options.length, "length", "Length of the strip in t.", positive);
    study.options().group("The mesh");
@@ -240,8 +240,8 @@ void plane_receding(Study &study)
                 positive);
    study.option(
       &map_n, "map-overhang",
-      "Map of the separation s and the border of stick e: values of n (empty: none).");
-   study.option(&map_f, "map-friction", "Map of s and e: values of f.", positive);
+      "Values of n of a map of the separation s and the border of stick e (empty: no map).");
+   study.option(&map_f, "map-friction", "Values of f of the map of s and e.", positive);
    study.option(&study_domain, "domain-study", "Print s and e for growing domains.");
    study.options().renamed(
       {{"march", "stepping"}, {"steps", "increments"}, {"map", "map-overhang"}});

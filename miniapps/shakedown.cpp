@@ -6,7 +6,7 @@
 //  estimates; the exact limit (Melan), with bounds that are proven for a contact whose nodes
 //  all stay closed; the stick zone of the two bodies joined as one (monolith); and marches in
 //  time, which report nodes that open. A limit that is decided where tractions are singular is
-//  one of the mesh, not of the bodies, and the result says so. Units a = P = E' = 1,
+//  a limit of the mesh, not of the bodies, and the result says so. Units: a = P = E' = 1, with
 //  E' = E/(1-ν²).
 //
 //  Any contact saved with --save (or save() of a reduced problem) can be used as well: name

@@ -2,7 +2,8 @@
 //
 //  Cases I and II of the thesis (3.7): a square elastic block, |x| < a, 0 < y < 2a, is pressed
 //  by P and then sheared by Q, either monotonically through a list of values or in cycles. The
-//  interface is a complete contact with Coulomb friction. Units a = P = E' = 1, E' = E/(1-ν²).
+//  interface is a complete contact with Coulomb friction. Units: a = P = E' = 1, with E' =
+//  E/(1-ν²).
 //
 //  Sample runs:
 //    square_punch

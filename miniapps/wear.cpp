@@ -2,7 +2,7 @@
 //
 //  A parabola 1/R on a half-plane of the same material is pressed by P, and Q goes to and fro
 //  between ±f P times --amplitude. The surfaces wear by Archard's law, depth = k p |slip|,
-//  with the k of both together. Units: a (half-width of the unworn contact) = P = R = 1. Wear
+//  with one k for both together. Units: a (half-width of the unworn contact) = P = R = 1. Wear
 //  ends when slipping nodes carry no force. This state is also computed directly, and compared
 //  with Ciavarella and Hills (1999). With --reduced the program takes any saved reduced
 //  problem, in its own units, through a history of your own. There is no debris, and the depth
@@ -82,7 +82,7 @@ void wear_contact(Study &study)
                 at_least(25));
    study.option(&pad.order, "order", "Pad: order of the elements.", within(1, 8));
    study.options().group("The wear");
-   study.option(&cycles, "cycles", "Number of cycles in all, with those of --load-state.",
+   study.option(&cycles, "cycles", "Number of cycles in all, those of --load-state included.",
                 within(0, 1e15));
    study.option(&coefficient, "wear", "Archard's k of both bodies together, in 1/pressure.",
                 not_negative);
@@ -99,11 +99,12 @@ void wear_contact(Study &study)
                 "cycle (from one point of the history to the next).",
                 {"cycle", "piece"});
    study.options().group("The march");
-   study.option(&settings.march.increments, "increments",
-                "Load increments between two points of the history. 0: 1 where slip is in "
-                "proportion to the load in each part of the cycle (the pads, or an uncoupled "
-                "problem with constant normal loads in the cycle), else 20.",
-                at_least(0));
+   study.option(
+      &settings.march.increments, "increments",
+      "Load increments between two points of the history. 0: one increment where slip is in "
+      "proportion to the load in each part of the cycle (the pads, or an uncoupled "
+      "problem with constant normal loads in the cycle), else 20.",
+      at_least(0));
    stepping.declare(study);
    study.options().group("A saved problem in place of the pad");
    study.option(&file, "reduced", "Reduced problem, in place of the pad.", Text::input);

@@ -360,7 +360,8 @@ void draw_normals(Panel &panel, const Reduction &reduction, double arrow)
    }
 }
 
-/// The nodes of a guide, the forces at its centre, and where they turn it.
+/// Draws the nodes of a guide, its forces at its centre, and a mark at the centre for each load
+/// that turns it.
 void draw_guide(Panel &panel, const ElasticBody &body, const GuidedPart &guide, double arrow)
 {
    for (const AtNode &at : nodes_of(body, guide))

@@ -285,7 +285,7 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
                 at_least(-1));
    study.option(&amplitude_, "amplitude",
                 "Multiplies the differences of the cycle's loads from those at --cycle-start. "
-                "If the cycle starts at Q = 0 and goes between ±Q, 0.5 halves it.",
+                "If the cycle starts at Q = 0 and goes between ±Q, 0.5 halves Q.",
                 positive);
    study.option(&amplitudes_, "amplitudes",
                 "One run for each of these values of --amplitude, as '0.2 0.5 1'. '0.2 … 1' "
@@ -293,7 +293,8 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
                 "--sweep amplitude=VALUES.");
    study.options().leave_out_of_cases("amplitudes");
    study.option(&cycles_, "cycles",
-                "Largest number of cycles: the march ends when they are steady.", at_least(1));
+                "Largest number of cycles. The march ends earlier when they are steady.",
+                at_least(1));
    study.option(&settings.increments, "increments",
                 "Load increments between two points of the history.", at_least(1));
    stepping_.declare_with_events(study);

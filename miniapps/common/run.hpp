@@ -114,8 +114,8 @@ LoopFigures figures(const cattaneo::ReducedProblem &problem,
 double external_work(const cattaneo::ReducedProblem &problem,
                      const cattaneo::MarchReport &report, const cattaneo::CycleRecord &cycle);
 
-/// A table of the cycles of a march, after those that Study::rows_before() has, with the loops
-/// of the loads that vary (cattaneo::Loop), which are also drawn. Writes `dissipation`,
+/// A table of the cycles of a march. The rows of Study::rows_before() come first. It has the
+/// loops of the loads that vary (cattaneo::Loop), which are also drawn. Writes `dissipation`,
 /// `steady_cycle`, `steady_period` and `energy_imbalance` into the results. Energies are
 /// printed in multiples of `unit`. If only the rest of a cycle is known, the cycle is left out,
 /// and a line says so.

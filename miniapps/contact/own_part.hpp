@@ -22,7 +22,7 @@ class OwnPart
 {
 public:
    OwnPart(OwnBodies &own, const JointCase &joint, int b);
-   /// The body of a matrix that has the sets of its contacts.
+   /// Makes the body of a matrix that comes with the node sets of the body's contacts.
    void make_of_matrix(cattaneo::NodalStiffness matrix);
    /// The torsion body on the same mesh.
    void add_twisting(OwnBodies &own, std::size_t b);

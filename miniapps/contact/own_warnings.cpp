@@ -18,10 +18,10 @@ void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
    const Eigen::Vector2d apart = ends[0] - ends[1];
    if (along.dot(apart) < -1e-6 * apart.norm())
    {
-      warn(bolt.source.called("direction") + " points from " +
-           joint.bodies[bolt.ends[0].body].name + " to " +
-           joint.bodies[bolt.ends[1].body].name +
-           ": the shank would push them apart, must point the other way");
+      const std::string &from = joint.bodies[bolt.ends[0].body].name,
+                        &to = joint.bodies[bolt.ends[1].body].name;
+      warn(bolt.source.called("direction") + " points from " + from + " to " + to +
+           ", must point from " + to + " to " + from + ": the shank would push them apart");
    }
    const double off = std::abs(along[0] * apart[1] - along[1] * apart[0]);
    if (off > 0.05 * apart.norm())
@@ -381,7 +381,8 @@ void warn_of_cut_elements(const mfem::Mesh &mesh, const BoundaryPart &part,
    if (count == 0) { return; }
    warn(called + ": the interval of '" + name + "' ends within an element, " + first +
         ", which is left out of the contact: no force is carried there, and the nodes beside "
-        "it carry more. It must end where elements end, or the mesh must have a node there");
+        "it carry more. End the interval where elements end, or put a node of the mesh at its "
+        "end");
 }
 
 } // namespace miniapp

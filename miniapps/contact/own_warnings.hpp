@@ -31,8 +31,8 @@ void warn_of_accuracy(double accuracy);
 /// bodies with elements in its last state.
 void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
                                  const cattaneo::ContactState &last);
-/// Warns of a free side that keeps the chords of a curve where that changes the wall beside it
-/// by more than a fortieth.
+/// Warns of a free side whose edges stay the chords of a curve, if the wall beside the side is
+/// thereby thinner or thicker by more than a fortieth.
 void warn_of_thin_wall(const cattaneo::SmoothSides &sides, const std::string &body, int order);
 /// Notes which sides were taken as smooth curves, and the effect on gaps; `sides`: those of
 /// each body with a mesh.
@@ -49,10 +49,10 @@ void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::Vect
 /// For each interface: is its second side a straight rigid line, or a half-plane?
 std::vector<bool> even_sides(const JointCase &joint);
 
-/// Displacements are small, so that a node presses along its own normal. If this normal is far
-/// from that of the rigid line, for instance beyond a corner of the side, the node holds the
-/// body as no line could. If the other side is not such a line, the corners of both sides are
-/// checked.
+/// Displacements are small, so that a node presses along its own normal. If this normal has
+/// another direction than that of the rigid line, for instance beyond a corner of the side, the
+/// node holds the body in a direction in which the line cannot. If the other side is not such a
+/// line, the corners of both sides are checked.
 class SidesThatBear
 {
 public:

@@ -238,7 +238,8 @@ March march_with_bolts(const BoltedJoint &self, const History &history,
    for (const Bolt &bolt : self.bolts()) { bolts.push_back(bolt.load); }
    March march = march_by(marcher, nb::cast<const ReducedProblem &>(problem), history, state,
                           settings, keep_states, observer, progress, stop, members, bolts);
-   // The user did not request the stop of a march at which a bolt would push.
+   // A march also stops where a bolt would push. The user did not request that stop, so warn
+   // of it.
    const MarchReport &report = march.report;
    if (report.status == FrictionStatus::stopped &&
        report.message.find("would be compressed") < std::string::npos)

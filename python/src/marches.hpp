@@ -4,7 +4,7 @@
 #include <cattaneo/friction/march.hpp>
 #include <variant>
 
-// Code that all functions share which march a contact.
+// Code shared by all functions that march a contact.
 
 namespace cattaneo::python
 {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-// Code that all functions share which read out zones and edges of contact.
+// Code shared by all functions that read out zones and edges of contact.
 
 namespace cattaneo::python
 {

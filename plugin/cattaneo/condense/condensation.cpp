@@ -181,7 +181,10 @@ void ContactDofs::move(int position, Eigen::Index load, double by, const Trace &
    const std::string pattern = "by load pattern '" + loads[load].name + "'";
    if (trace.formulation == Formulation::torsion)
    {
-      refuse_motion(trace, position, "is turned " + pattern);
+      refuse_motion(trace, position,
+                    "is turned " + pattern +
+                       ", contact nodes of torsion must be free or held by a support: end the "
+                       "contact before the part that is turned");
    }
    if (moved.size() == 0)
    {
@@ -213,10 +216,9 @@ bool moves_plane(const Trace &trace, int position, const DofPlaces &places,
 void refuse_motion(const Trace &trace, int position, const std::string &how)
 {
    const auto n = static_cast<int>(trace.size());
-   throw InputError(
-      std::string("condense: component ") + component_name(trace.formulation, position / n) +
-      " of the contact node at " + trace.called(position % n) + " " + how +
-      ", contact nodes must be free, held or moved by a load: the contact must end before it");
+   throw InputError(std::string("condense: component ") +
+                    component_name(trace.formulation, position / n) +
+                    " of the contact node at " + trace.called(position % n) + " " + how);
 }
 
 namespace

@@ -82,7 +82,8 @@ FaceFunctions cubic_functions(std::size_t nodes, double s, double t)
             (two[1] * rest[0] - two[0] * rest[1]) * one[0];
          continue;
       }
-      // Products of functions on a line that rise from one end and from the other.
+      // In each direction: the product of a function that rises from one end of the interval
+      // and a function that rises from the other end.
       const auto along = rising(i, s), back = rising(3 - i, 1 - s), across = rising(j, t),
                  down = rising(3 - j, 1 - t);
       const double x = along[0] * back[0], y = across[0] * down[0];
@@ -348,7 +349,7 @@ Matrix3d frame_of(const Vector3d &normal)
    int axis = 0;
    for (int c : {1, 2})
    {
-      // Nearer to the surface by more than round-off.
+      // This axis is closer to the tangent plane than the best so far, by more than round-off.
       if (std::abs(normal[c]) < std::abs(normal[axis]) - 1e-9) { axis = c; }
    }
    Matrix3d frame;

@@ -571,8 +571,8 @@ std::vector<EdgeBend> OpenSide::possible() const
       end = begin + 1;
       if (!kept(begin)) { continue; }
       while (end < last() && goes_on(end)) { ++end; }
-      // Two turns make a chamfer, unless there are no others between two corners and the edges
-      // are equally long.
+      // Two turns are a chamfer. They are a curve only if they are all the turns between two
+      // corners and the edges are about equally long.
       const auto first = length_.begin() + begin - 1, beyond = length_.begin() + end;
       const bool alone =
          ends(begin - 1) && ends(end) &&

@@ -31,9 +31,10 @@ Vector2d circle_tangent(const std::array<Vector2d, 3> &points)
    return (one / one.squaredNorm() - two / two.squaredNorm()).normalized();
 }
 
-/// Angle between the curve of a chain and its mirror image at an end, if the chain curves such
-/// that it meets the image without a corner; else none. `component` is that of the axis normal
-/// to the plane of symmetry.
+/// Angle by which the curve of a chain misses, at an end, the direction in which it would meet
+/// its mirror image without a corner. None if the angle is more than a quarter of what the
+/// curve turns between the end and the middle of the first chord: then a corner is meant.
+/// `component` is that of the axis normal to the plane of symmetry.
 std::optional<double> curves_into_symmetry(const LineChain &chain, bool last, int component)
 {
    std::optional<double> least;

@@ -98,7 +98,8 @@ FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &li
    places.y = Eigen::Map<const Eigen::VectorXd>(y.data(), static_cast<Eigen::Index>(y.size()));
    std::vector<int> all(x.size());
    std::iota(all.begin(), all.end(), 0);
-   // Motions that the first places leave free; zero on dofs of this rank that are fixed.
+   // Rigid motions that remain free if the first `count` places are held; zero on dofs of this
+   // rank that are fixed.
    const auto left_by = [&](int count)
    {
       std::vector<bool> holding(all.size(), false);

@@ -36,8 +36,8 @@ struct LimitGradient
 LimitGradient load_limit_gradient(const LimitProblem &problem, const LimitReport &limit,
                                   const std::vector<StiffnessChange> &stiffness = {});
 
-/// Derivatives of friction_limit(): the change of the coefficient of friction, the same at all
-/// nodes, that compensates the change of the mechanism's work by a datum.
+/// Derivatives of friction_limit() by each datum: how much the friction must change, equally at
+/// all nodes, to compensate for the change of the mechanism's work that the datum causes.
 LimitGradient friction_limit_gradient(const LimitProblem &problem, double load_factor,
                                       const LimitReport &limit,
                                       const std::vector<StiffnessChange> &stiffness = {});

@@ -162,7 +162,7 @@ public:
    Formulation formulation() const { return formulation_; }
    /// Unknowns of each node: 2, in torsion 1, in space 3.
    int components() const { return cattaneo::components(formulation_); }
-   /// The space of its displacements, the user's own or made of the order.
+   /// The space of its displacements: the user's, or one made here from the order.
    mfem::FiniteElementSpace &space() const { return *space_; }
    /// The ranks that share its mesh.
    const Ranks &ranks() const { return ranks_; }

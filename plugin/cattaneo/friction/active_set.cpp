@@ -82,7 +82,7 @@ bool polished(Increment &at)
 Search active_set(Increment &at)
 {
    // With two tangents the number of Newton's steps is the same from the start and after
-   // sweeps.
+   // sweeps, so there are no sweeps.
    const int sweeps = at.system.disc() ? 0 : at.system.settings.sweeps;
    for (int k = 0; k < sweeps; ++k) { sweep(at); }
    at.find_pieces();

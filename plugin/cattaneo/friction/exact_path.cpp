@@ -216,8 +216,9 @@ bool ExactPath::set_states(const ContactState &state)
 }
 
 /// Finds rates with which all nodes obey the laws: by Newton's steps from the present states or
-/// from known rates, then by Lemke's method from several starts, at last with a pivot. False if
-/// there are none. @param present states of the nodes, which those keep that are at rest
+/// from known rates, then by Lemke's method from several starts, at last as a body that
+/// is balanced on one node (place_pivot()). False if there are none. @param present states of
+/// the nodes; nodes at rest keep theirs
 bool ExactPath::search_rates(std::optional<ComplementarityReport> known,
                              const std::vector<NodeState> &present)
 {
@@ -303,9 +304,9 @@ bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
    return false;
 }
 
-/// Distance of a node from a boundary of its state, as a force: from its gap if it is open,
-/// else from its friction in a sense of slip, or for sense 0 from its pressure. rate() tells
-/// how fast it changes.
+/// Distance of a node from a boundary of its state, as a force. It is computed from the
+/// gap of an open node. For a closed node it is computed from the bound of friction in a sense
+/// of slip, or for sense 0 from the pressure. rate() tells how fast it changes.
 double ExactPath::left(Index i, double sense) const
 {
    const Index m = problem_.nodes() + i;

@@ -266,11 +266,12 @@ Mechanism motion_of(const VectorXd &bears, const std::vector<NodeState> &states,
 }
 
 /// Holds the rigid motions by weak springs, then by weaker and weaker ones. Each spring is
-/// unstretched where the one before let the bodies go. If the last three springs carry the same
-/// force and a body slides at a closed node, the body moves without end (if springs can show
-/// it). Otherwise the place where the springs hold the bodies is close to an answer without
-/// springs. If the springs carry no force, the place is itself an answer. (A balanced pivot,
-/// for which only round-off would decide to which side it leans, stays where it is.)
+/// unstretched at the place that the bodies reached on the spring before. If the last three
+/// springs carry the same force and a body slides at a closed node, the body moves without end
+/// (if springs can show it). Otherwise the place where the springs hold the bodies is close to
+/// an answer without springs. If the springs carry no force, the place is itself an answer. (A
+/// balanced pivot, for which only round-off would decide to which side it leans, stays where it
+/// is.)
 OnSprings put_on_springs(Increment &at)
 {
    FrictionSystem &s = at.system;

@@ -64,7 +64,7 @@ const std::vector<Method> in_the_disc = {
    springs,
    // Strong coupling, friction above critical, nodes at one place.
    {"growing friction", growing_friction, true},
-   // Stiffness like a Hilbert matrix, of free bodies.
+   // Free bodies whose stiffness is as ill-conditioned as a Hilbert matrix.
    {"damped Newton", damped_newton, true}};
 
 bool find_end(Increment &at, bool thorough = true)

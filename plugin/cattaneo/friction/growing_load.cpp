@@ -18,7 +18,7 @@ Search growing_load(Increment &at)
    constexpr int most = 24;
    const VectorXd before = at.start.multipliers;
    Increment::Place last{at.u, at.status};
-   // Newton's steps have failed with all of the loads.
+   // Newton's steps have failed with the full change of the loads.
    double done = 0, step = 0.5;
    for (int k = 0; k < most && step >= least; ++k)
    {

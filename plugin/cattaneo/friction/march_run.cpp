@@ -249,7 +249,7 @@ bool MarchRun::step_by_increment(double target, bool exact)
    {
       trial = attempt(target, exact);
       const double step = target - state_.time;
-      // Loads close to a load at which the solver fails often have a solution.
+      // If the solver fails at a load, there is often a solution at loads close by.
       const bool stalled = trial.stalled() && step > smallest && !self_similar();
       if (!trial.solved() && !stalled)
       {

@@ -182,7 +182,8 @@ int BoltedJoint::last_tightening(const LoadHistory &history) const
    return last;
 }
 
-/// A piece of the opening part, or the rest of it after the time of the state.
+/// A piece of the first part of the history, in which bolts are tightened, or the rest of the
+/// piece after the time of the state.
 BoltedJoint::Part BoltedJoint::part(const LoadHistory &history, const LoadPiece &piece,
                                     const ContactState &state) const
 {

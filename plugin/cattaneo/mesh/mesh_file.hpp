@@ -15,7 +15,7 @@ struct MeshPart
    /// A part of a deck: an instance, or a set of elements. Empty: the deck has one body, or
    /// `usual` names it.
    std::string name;
-   /// If `name` is empty and there are several instances, the one with this name is used.
+   /// The name of the instance that is used if `name` is empty and there are several.
    std::string usual = {};
    /// The name of a line within the body (a physical curve of Gmsh) along which the mesh is
    /// cut: elements on its two sides get separate nodes there, except at ends within the body,

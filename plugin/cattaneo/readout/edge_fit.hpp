@@ -17,7 +17,7 @@ struct EdgeTractions
    std::vector<double> shear; ///< fully stuck shear traction on the cracked body, positive in
                               ///< the direction of increasing position
    /// Width of the contact, from this edge to its other edge, where the tractions vanish or
-   /// are singular likewise. Infinite if there is no other edge, or if it is not known.
+   /// are singular, as at this edge. Infinite if there is no other edge, or if it is not known.
    double width = std::numeric_limits<double>::infinity();
 
    /// InputError for arrays of unequal length, entries that are not finite, and a width that

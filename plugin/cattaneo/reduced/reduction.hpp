@@ -25,8 +25,8 @@ struct InterfaceReport
    /// True: the nodes are those of Interface::second, and forces on the first body are
    /// opposite.
    bool of_second = false;
-   /// n × 2, of the nodes. Of surfaces they are in ReducedProblem::position, and this and all
-   /// members for lines below are empty.
+   /// n × 2, places of the nodes of a line. Those of a surface are in ReducedProblem::position;
+   /// this member and the members for lines after it are then empty.
    Eigen::MatrixX2d position;
    Eigen::MatrixX2d outline; ///< n × 2, ContactLine::outline: where gaps are measured from
    Eigen::MatrixX2d tangent; ///< n × 2, of their frames: unit vectors
@@ -234,11 +234,11 @@ private:
    std::shared_ptr<const Union> union_, torsion_union_;
    std::shared_ptr<const UnionRows> rows_; ///< of all interfaces
    PatternIndex pattern_, torsion_pattern_;
-   /// Displacements {v; w} of rigid obstacles in some motions, a column each, zero beyond their
-   /// interfaces. InputError, which begins with `where`.
+   /// Displacements {v; w} of rigid obstacles at the contact nodes in these motions: one
+   /// vector, zero beyond their interfaces. InputError, which begins with `where`.
    Eigen::VectorXd displaced(const std::string &where,
                              const std::vector<ObstacleMotion> &motions) const;
-   /// Those of one interface in space, where `d` has them.
+   /// Writes the displacements on one interface in space to their rows of `d`.
    void displace_in_space(const std::string &where, const ObstacleMotion &motion,
                           Eigen::VectorXd &d) const;
    /// Contribution of moving obstacles to the relative displacements {v; w} of the contact

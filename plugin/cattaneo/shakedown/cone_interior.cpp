@@ -318,7 +318,8 @@ InteriorPoints::Aim InteriorPoints::aim(double target, const Step *affine) const
 /// Newton's step to the products of s and z in `aim`, and to zero residuals.
 InteriorPoints::Step InteriorPoints::direction(const Aim &aim) const
 {
-   // With s = h + G x and W dz + W⁻¹ ds = λ\aim =: e:
+   // With s = h + G x and W dz + W⁻¹ ds = e, where e solves λ ∘ e = aim (∘: the product of the
+   // cones, e: quotient()):
    //    dz = W⁻¹ e - W⁻² ds,   ds = G dx - off.
    Step step;
    step.s.resize(cones_);

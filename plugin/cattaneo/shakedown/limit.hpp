@@ -28,8 +28,8 @@ struct LimitProblem
    LoadCycle cycle;         ///< of loads, to be changed along a sweep
 };
 
-/// Computes the residual forces and the coupling, the expensive part. For a sweep change cycle
-/// or friction in place.
+/// Computes the residual forces and the coupling, the expensive part. For a sweep, change
+/// the cycle or the friction in the result.
 LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle);
 
 /// Outcome of the search for a limit.

@@ -134,7 +134,8 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
    LeastPressure least;
 
    // If y violates its condition by δ, y + δ z meets it, for any row z > 0 with z ≥ 1 + |z f
-   // M|. z (I - F) = 1 has a positive solution exactly if the repetition contracts.
+   // M|. The solution of z (I - F) = 1 is such a row if it is positive. It is positive exactly
+   // if the repetition below, y ← magnitude(M - y f M), contracts.
    Eigen::VectorXd first_shift, shift;
    const Eigen::MatrixXd F = f * magnitude(M, t, weight, first_shift);
    const Eigen::RowVectorXd ones = Eigen::RowVectorXd::Ones(n);

@@ -74,10 +74,12 @@ bool moves_plane(const Trace &trace, int position, const DofPlaces &places,
                  const std::vector<int> &fixed, const std::vector<BodyLoad> &loads);
 
 /// Throws an InputError that names the node at a position of the contact dofs. `how` says in
-/// which way it moves, which is not allowed.
+/// which way it moves, what is allowed, and what to do.
 [[noreturn]] void refuse_motion(const Trace &trace, int position, const std::string &how);
 /// The argument `how` of refuse_motion() for a node that a rigid block moves.
-constexpr const char *in_guide = "is in a guide";
+constexpr const char *in_guide =
+   "is in a guide, contact nodes must be free, held by a support or moved by a load: end the "
+   "contact before the guide";
 
 /// The condensed body in the frames of the contact line, without the false stiffness against
 /// rigid motions that round-off causes. Only names and controls of `loads` are used. InputError

@@ -36,8 +36,8 @@ void meet_supports(ContactLine &line, const CondensedBody &body);
 /// so that the held axes are among their axes. InputError as for condense().
 void meet_supports(ContactSurface &surface, const CondensedBody &body);
 
-/// The frame of a node in space with the held axes among its axes; `where` is the node in
-/// sentences.
+/// The frame of a node in space with the held axes among its axes; `where` names the node in
+/// messages.
 Eigen::Matrix3d on_supports(const Eigen::Matrix3d &frame, const std::array<bool, 3> &held,
                             const std::string &where);
 

@@ -72,7 +72,7 @@ struct Increment
 
    void move_to(const VectorXd &displacements, const std::vector<NodeState> &states);
    void move_to(const ContactState &there);
-   /// The pieces at the present pressures, of bounds that bend.
+   /// For each bound that bends: finds its straight piece at the node's present pressure.
    void find_pieces();
    void go_back() { move_to(swept.u, swept.status); }
    /// The state at the end, with exact zeros where the node states say zero.

@@ -131,8 +131,8 @@ public:
    int eighths(const ContactState &state);
    /// Empty if so few nodes do not suffice.
    std::optional<Way> set_out(const ContactState &state, int eighths);
-   /// Eighths that include all nodes which have closed their gaps and are not among the given
-   /// eighths; 0: there are no such nodes.
+   /// Number of eighths needed to include also the nodes beyond the given eighths that have
+   /// closed their gaps; 0: there are no such nodes.
    int touched(const ContactState &state, int eighths) const;
 
    const ReducedProblem &problem() const { return problem_; }

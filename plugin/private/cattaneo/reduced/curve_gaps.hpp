@@ -6,9 +6,9 @@
 namespace cattaneo
 {
 
-/// Changes of the gaps from node to node because elements are chords of smooth curves
-/// (LineElement::bend), n each. Less than 1e-9 of the distance of nodes is round-off, and set
-/// to zero.
+/// How gaps between opposite nodes change because elements are chords of smooth curves
+/// (LineElement::bend); n numbers in each. Changes of less than 1e-9 of the distance of nodes
+/// are round-off, and set to zero.
 struct CurveGaps
 {
    Eigen::VectorXd moved; ///< gaps between the outlines less gaps between the nodes' places
