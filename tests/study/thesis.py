@@ -37,7 +37,8 @@ def rows(page):
     page = re.sub(r'<tbody class="plain">.*?</tbody>', "", page, flags=re.S)  # of data, not of references
     for section in re.findall(r'<section id="(.*?)">(.*?)</section>', page, re.S):
         for row in re.findall(r"<tr>(<td>.*?)</tr>", section[1], re.S):
-            yield section[0], [html.unescape(re.sub("<.*?>", "", cell)) for cell in re.findall(r"<td>(.*?)</td>", row, re.S)]
+            cells = [re.sub("<sub>(.*?)</sub>", r"_\1", cell) for cell in re.findall(r"<td>(.*?)</td>", row, re.S)]
+            yield section[0], [html.unescape(re.sub("<.*?>", "", cell)) for cell in cells]
 
 
 def main():
