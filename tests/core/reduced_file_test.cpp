@@ -217,7 +217,8 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
    refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "the end of a line is 'bend'");
    refused("\"held\": [1],", "", "held");
    refused("\"coupled\": true,", "", "coupled");
-   refused("\"coupled\": true,", "\"coupled\": false,", "`coupled` is false, but B is not zero");
+   refused("\"coupled\": true,", "\"coupled\": false,",
+           "`coupled` is false, but B is not zero");
    refused("\"coupled\": true,", "\"coupled\": 1,", "is not a reduced problem");
    refused(", \"bodies\": [1, 0]", "", "bodies");
    refused("\"bodies\": [1, 0]", "\"bodies\": [1]", "is not a reduced problem");

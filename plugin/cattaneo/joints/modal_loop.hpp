@@ -17,9 +17,9 @@ enum class LoopSize
 /// How modal loops are marched. The defaults need no tuning.
 struct ModalLoopSettings
 {
-   MarchSettings march; ///< its increments are stops of the exact path
-   LoopSize size = LoopSize::amplitude;
-   int cycles = 200; ///< marched at most until a loop is steady
+   MarchSettings march;                 ///< its increments are stops of the exact path
+   LoopSize size = LoopSize::amplitude; ///< what the size of a loop is
+   int cycles = 200;                    ///< marched at most until a loop is steady
    /// A loop is steady if a cycle ends in the state in which it began: displacements and forces
    /// of the nodes by this share of their largest ranges in the cycle (what later cycles add is
    /// counted), and ∮ α dq by this share of the loss.
@@ -39,7 +39,7 @@ struct LoopPoint
     until a cycle ends in the state in which it began. */
 struct ModalLoop
 {
-   FrictionStatus status = FrictionStatus::converged;
+   FrictionStatus status = FrictionStatus::converged; ///< that of its march
    /// One sentence where there is no loop of the size that was asked for.
    std::string message;
    /// The force from which on nothing holds the mode in equilibrium: the joint slides as a
