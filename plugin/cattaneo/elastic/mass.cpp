@@ -39,6 +39,8 @@ SharedMatrix mass_matrix(const ElasticBody &body, const std::vector<double> &den
    mfem::SparseMatrix made;
    mfem::Array<int> none;
    form.FormSystemMatrix(none, made);
+   // Eigen expects the columns of a row in their order.
+   made.SortColumnIndices();
    Eigen::SparseMatrix<double, Eigen::RowMajor> copy(view(made));
    return SharedMatrix(std::move(copy));
 }
