@@ -234,9 +234,10 @@ void wear_contact(Study &study)
    study.results["jumps"] = report.jumps;
    study.results["steady_cycle"] = report.steady_cycle;
    study.results["implicit_cycles"] = report.implicit_cycles;
-   study.value("volume", worn_volume(problem, state.depth), "worn volume", none);
+   study.value("volume", worn_volume(problem, state.depth), "worn volume at the last cycle",
+               none);
    // Without an estimate no ± is printed.
-   study.value("depth", state.depth.maxCoeff(), "largest depth",
+   study.value("depth", state.depth.maxCoeff(), "largest depth at the last cycle",
                std::isfinite(report.error) ? report.error : none);
    study.results["tolerance_reached"] = report.reached;
    study.value("energy", state.dissipation.sum(), "energy that friction took");

@@ -176,6 +176,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
                                       {"x", "at x / a", "%.3f"},
                                       {"angle", "normal, °", "%.1f"}});
    const std::size_t middle = places.size() / 2;
+   std::string above; // the criteria that exceed their limits
    for (std::size_t c = 0; c < limits.size(); ++c)
    {
       for (const bool right : {false, true})
@@ -205,10 +206,22 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
             error = std::max(error, std::abs(differs));
          }
          const bool trailing = !right == (pad.shear >= 0);
+         if (most.value > 1)
+         {
+            above += (above.empty() ? "" : ", ") + std::string(named_criteria[c].name) +
+                     (trailing ? ", trailing" : ", leading") +
+                     text(" edge, %.3g of its limit", most.value);
+         }
          study.row(table, {named_criteria[c].name, trailing ? "trailing" : "leading",
                            most.value * limits[c], limits[c], named_criteria[c].unit,
                            most.value, error, x, most.angle * 180 / M_PI});
       }
+   }
+   // The head of the page must not be read without the criteria that contradict it.
+   if (!above.empty())
+   {
+      study.lead["sentence"] = study.lead["sentence"].get<std::string>() +
+                               " Critical planes say that a crack starts: " + above + ".";
    }
    study.results["planes_depth"] = depth;
    study.say(

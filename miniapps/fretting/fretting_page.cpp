@@ -16,7 +16,25 @@ using Json = nlohmann::ordered_json;
 namespace
 {
 
-std::string verdict_text(const FrettingReport &report)
+/// Measures beside the criterion of arrest that exceed their limits.
+std::string against(const FrettingReport &report, double fatigue_limit)
+{
+   std::string found;
+   if (report.edge_stress_range > fatigue_limit)
+   {
+      found += text(" The range of the edge stress, %.4g MPa, is above the fatigue limit, "
+                    "%.4g MPa.",
+                    report.edge_stress_range, fatigue_limit);
+   }
+   if (report.mode_two_utilisation > 1)
+   {
+      found += text(" Not safe by mode II: ΔK_II is %.4g times its threshold.",
+                    report.mode_two_utilisation);
+   }
+   return found;
+}
+
+std::string verdict_text(const FrettingReport &report, double fatigue_limit)
 {
    const double depth = 1e3 * report.threshold.arrest_depth;
    switch (report.threshold.verdict)
@@ -38,7 +56,21 @@ std::string verdict_text(const FrettingReport &report)
       return "ARRESTS: no crack starts; the fatigue limit is not reached at the edge.";
    }
    return "ARRESTS: a crack may start but stops at about " + text("%.4g µm", depth) +
-          ", before the critical length. Safe by this criterion.";
+          ", before the critical length. Safe by this criterion." +
+          against(report, fatigue_limit);
+}
+
+/// The validity that lowers the trust most.
+std::string trust_text(const FrettingReport &report)
+{
+   std::string measures;
+   for (const Validity &item : report.validity)
+   {
+      if (item.trust != report.trust || item.measure.empty()) { continue; }
+      measures += (measures.empty() ? "" : ", ") + item.measure + text(" = %.4g", item.value);
+   }
+   return "Trust in this result: " + to_string(report.trust) +
+          (measures.empty() ? "" : " (" + measures + ")");
 }
 
 const char *criterion_text(Criterion criterion)
@@ -91,6 +123,15 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
    const FrettingReport &r = judged.report;
    const FatigueMaterial &m = pad.material;
    const double a = contact.half_width > 0 ? contact.half_width : none;
+   const std::string verdict = verdict_text(r, m.fatigue_limit.low);
+   // The edge field knows K_N and K_T only; the solved contact has its own values beside it.
+   const std::string field = "by the edge field, from K_N and K_T";
+   const PadEdge *const edge = !solved                     ? nullptr
+                               : judged.edge == "trailing" ? &solved->trailing
+                                                           : &solved->leading;
+   const std::string solved_slip =
+      edge ? "; of the solved contact: " + number(edge->edge.slip_zone, "mm") : "";
+   const std::string solved_energy = edge ? "; that of the solved contact is in section 6" : "";
    study.title("FRETTING ASSESSMENT: " + pad.kind + " pad, " + m.name + ", " +
                (pad.plane_stress ? "plane stress" : "plane strain"));
    study.say(wrapped(
@@ -100,12 +141,9 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
          1e-3 * m.young, m.poisson, m.threshold / mpa_sqrt_m, m.fatigue_limit.low,
          m.shear_yield.low, pad.friction),
       3));
-   study.say(
-      wrapped(verdict_text(r), 3) +
-      wrapped("Trust in this result: " + to_string(r.trust) + " (see the last section).", 3));
+   study.say(wrapped(verdict, 3) + wrapped(trust_text(r) + ", see the section on trust.", 3));
    Page page(study);
-   study.lead["sentence"] =
-      verdict_text(r) + " Trust in this result: " + to_string(r.trust) + ".";
+   study.lead["sentence"] = verdict + " " + trust_text(r) + ".";
    study.say("1. What the contact edge feels");
    page.value("half_width", "half width a", a, "mm", "of the contact");
    page.value("k_n", "K_N", contact.k_n, "MPa/√mm",
@@ -119,7 +157,7 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
 
    study.title("2. Slip and stress");
    page.value("slip_zone", "slip zone d", r.slip_zone, "mm",
-              a > 0 ? number(100 * r.slip_zone / a, "% of a") : "");
+              (a > 0 ? number(100 * r.slip_zone / a, "% of a, ") : "") + field + solved_slip);
    page.value("edge_stress", "edge stress", r.edge_stress, "MPa",
               "along the surface, at peak load, by the edge field");
    if (solved)
@@ -128,7 +166,8 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
       study.results["edge_stress_contact_error_estimate"] = stress.error;
       page.value("edge_stress_contact", "edge stress, contact", stress.value, "MPa",
                  "± " + text("%.2g", stress.error) +
-                    " (estimate), the same of the solved contact, with bulk stress");
+                    " (estimate), the same of the solved contact, with bulk stress, "
+                    "extrapolated to the edge (figures have less, by their nodes)");
    }
    if (pad.kind == "hertz")
    {
@@ -148,8 +187,10 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
                    "no closed form where an edge slips against the shear: --pad fe");
       }
    }
-   page.value("edge_stress_range", "its range", r.edge_stress_range, "MPa",
-              "fatigue limit " + number(m.fatigue_limit.low, "MPa"));
+   page.value("edge_stress_range", "edge stress, range", r.edge_stress_range, "MPa",
+              "largest less least over the cycle, by the edge field; fatigue limit " +
+                 number(m.fatigue_limit.low, "MPa") +
+                 (m.fatigue_limit_basis == Basis::range ? ", a range" : ", an amplitude"));
    page.value("yield_ratio_first", "load / first yield", r.yield_ratio_first, "",
               "above 1: part of the slip zone yields");
    page.value("yield_ratio_full", "load / full yield", r.yield_ratio_full, "",
@@ -166,12 +207,13 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
              "threshold curve at X = " + number(r.abscissa) + ": " +
                 number(r.threshold_ordinate) + " (edge field alone)");
    page.value("mode_two_utilisation", "ΔK_II / its threshold", r.mode_two_utilisation, "",
-              "above 1 unsafe; for when the slip zone yields");
+              "above 1 not safe, where the slip zone yields");
 
    study.title("4. Frictional energy per cycle");
    page.value("energy_max", "energy, largest", r.energy_max, "N/mm",
-              "per area (= mJ/mm²), a quarter into the slip zone");
-   page.value("energy_total", "energy, total", r.energy_total, "N", "per mm of edge (= mJ/mm)");
+              "per area (= mJ/mm²), a quarter into the slip zone, " + field + solved_energy);
+   page.value("energy_total", "energy, total", r.energy_total, "N",
+              "per mm of edge (= mJ/mm), " + field + solved_energy);
 
    study.title("5. How far to trust it");
    Json validity = Json::array();

@@ -64,9 +64,10 @@ void Shakedown::monolith()
    const auto place = [&](const Incipience &at)
    { return at.node >= 0 ? text("at x = %.3f", x[at.node]) : ""; };
    study.title("Monolith, away from the ends");
-   study.value("first_slip", slip.load_factor, "first slip at λ", none, place(slip));
-   study.value("first_opening", opening.load_factor, "first opening at λ", none,
-               place(opening));
+   study.value("first_slip", slip.load_factor, "first slip away from the ends at λ", none,
+               place(slip));
+   study.value("first_opening", opening.load_factor, "first opening away from the ends at λ",
+               none, place(opening));
    for (const auto &[key, at] : {std::pair("first_slip_x", slip), {"first_opening_x", opening}})
    {
       study.results[key] = at.node >= 0 ? x[at.node] : none;

@@ -77,8 +77,8 @@ def spots(*all_runs):
 
 def together(run):
     """All tests of a file, legends where they hide none."""
-    sheet = f.panels(*((run, panel, {"title": title}) for panel, title in (("stress", "2.5: stress at the edge"), ("threshold_tests", "2.8: tests and threshold"),
-                                                                          ("mode_two", "2.9: range of K_T"), ("energy", "2.10: frictional energy"))), height=4)
+    sheet = f.panels(*((run, panel, {"title": title}) for panel, title in (("stress", "2.5: stress at the edge, invented tests"), ("threshold_tests", "2.8: invented tests and threshold"),
+                                                                          ("mode_two", "2.9: range of K_T, invented tests"), ("energy", "2.10: frictional energy, invented tests"))), height=4)
     for axes in sheet.axes:
         # Limits of several materials, and thresholds of several frictions, are told apart.
         for k, line in enumerate(line for line in axes.get_lines() if line.get_color() == "#555555"):
@@ -115,12 +115,12 @@ def drive(critical):
 
 
 def tests(panel):
-    return lambda run: f.panels((run, panel, {"title": ""}))
+    return lambda run: f.panels((run, panel, {"title": "invented tests"}))
 
 
 def reduced(run, other):
     """The tests, and the same at the load ratio of the thesis' tests."""
-    sheet = f.panels((run, "mode_two", {"title": "R = -1"}), (other, "mode_two", {"title": "R = 0.5"}), height=3.8)
+    sheet = f.panels((run, "mode_two", {"title": "R = -1, invented tests"}), (other, "mode_two", {"title": "R = 0.5, invented tests"}), height=3.8)
     for axes in sheet.axes:
         for line in axes.get_lines():
             if line.get_label().startswith("reduced"):
@@ -218,7 +218,7 @@ one threshold for each friction. The classical stress (first) scatters over mate
        together)
 figure("2.10 (total)", "Total frictional energy against life", [command for command, _ in TESTS.values()], INVENTED + """
 The energy of the whole slip zone, (8π/3) K_T³/(f K_N E*) a cycle for reversed loads; the thesis says that it orders the tests as the largest density does.""",
-       lambda *all_runs: f.panels(*((run, "energy_all", {"title": words}) for run, (_, words) in zip(all_runs, TESTS.values()))))
+       lambda *all_runs: f.panels(*((run, "energy_all", {"title": words + " (invented)"}) for run, (_, words) in zip(all_runs, TESTS.values()))))
 figure("2.10 (levels)", "Which measure separates broken tests from lasting ones", [*(command for command, _ in TESTS.values()), TOGETHER], INVENTED + """
 The thesis compares its measures by eye. Counted here: tests on the wrong side of the level that divides them best. Nearly any measure that grows with the load divides a single series. A measure is
 tested only by all materials and pads together (last column).""", levels)

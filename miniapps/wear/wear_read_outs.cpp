@@ -102,8 +102,8 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    }
    if (end.searches == 0)
    {
-      study.value("final_volume", 0, "volume worn off");
-      study.value("final_depth", 0, "largest depth");
+      study.value("final_volume", 0, "worn out: volume");
+      study.value("final_depth", 0, "worn out: largest depth");
       return study.say("   no node slips in a cycle, so nothing wears");
    }
    const ReducedProblem &problem = scene.problem;
@@ -119,7 +119,7 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    }
    const VectorXd s = problem.arc_length.segment(begin, nodes),
                   overlap = end.overlap.segment(begin, nodes);
-   study.value("final_stick", half_width(stick), "half-width that sticks",
+   study.value("final_stick", half_width(stick), "worn out: half-width that sticks",
                read_out_error(stick));
    Index first = nodes - 1, last = 0;
    for (Index i = 0; i < nodes; ++i)
@@ -130,12 +130,13 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    }
    study.value("final_extent",
                0.5 * (crossing(s, overlap, last, 1) - crossing(s, overlap, first, -1)),
-               "half-width that is worn or sticks");
-   study.value("final_volume", worn_volume(problem, end.depth), "volume worn off");
-   study.value("final_depth", end.depth.maxCoeff(), "largest depth");
+               "worn out: half-width that is worn or sticks");
+   study.value("final_volume", worn_volume(problem, end.depth), "worn out: volume");
+   study.value("final_depth", end.depth.maxCoeff(), "worn out: largest depth");
    study.value("final_pressure_centre", pressure_amid(problem, p, stick),
-               "pressure in the middle of the stick zone");
-   study.value("final_loss", settled(end.loss, 1), "loss of a cycle, of the unworn one");
+               "worn out: pressure in the middle of the stick zone");
+   study.value("final_loss", settled(end.loss, 1),
+               "worn out: loss of a cycle over the unworn one's");
    study.results["final_depths"] =
       std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());
    const VectorXd x = problem.arc_length.array() - scene.middle;

@@ -243,8 +243,9 @@ def curves(keys, points, names):
         shaded = {}
         if slides and len(parts) == 1:  # the value from which on the joint slides, or another reason why runs ended
             good = [x for part in parts.values() for x in part["x"] if x < min(slides)]
-            begin = (max(good) + min(slides)) / 2 if good else min(slides)
-            shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{slides[min(slides)].replace('_', ' ')}"}
+            begin, why = max(good) if good else min(slides), slides[min(slides)].replace("_", " ")
+            word = f"{why} begins between {begin:.9g} and {min(slides):.9g}" if good else why
+            shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{word}"}
         if parts:
             slopes(parts, scale(parts.values()))
             said, unit = words_of(points, name)
