@@ -201,7 +201,7 @@ int main(int argc, char *argv[])
       [&]
       {
          int nodes = 2001;
-         miniapp::Options args(argc, argv);
+         miniapp::Options args("benchmarks/benchmark_compression.cpp", argc, argv);
          args.add(&nodes, "nodes", "Contact nodes of the scenes, about.",
                   miniapp::at_least(201));
          args.parse();

@@ -344,7 +344,7 @@ int main(int argc, char *argv[])
          int repeats = 7;
          double share = 0.2;
          bool write = false;
-         miniapp::Options args(argc, argv);
+         miniapp::Options args("benchmarks/benchmark_floor.cpp", argc, argv);
          args.add(&repeats, "repeats", "Runs of each, of which the least counts.",
                   miniapp::at_least(1));
          args.add(&share, "share", "What a study may take more of than its kept ratio.",

@@ -119,13 +119,12 @@ int main(int argc, char *argv[])
          std::vector<double> sizes = {112, 224};
          bool weak = false;
          int nodes = 5;
-         miniapp::Options args(argc, argv);
+         miniapp::Options args("benchmarks/benchmark_ranks.cpp", argc, argv);
          args.add(&sizes, "elements", "Elements a side: a list.");
          args.add(&nodes, "nodes", "Contact nodes.");
          args.add(&method, "method", "factor, iterations or both.",
                   {"factor", "iterations", "both"});
-         args.add(&weak, {"weak", "weak", "strong", "strong"},
-                  "Dofs in proportion to the ranks.");
+         args.add(&weak, {"weak", "strong"}, "Dofs in proportion to the ranks.");
          args.add(&json, "json", "File for the results.", miniapp::Text::output);
          args.parse();
          ordered_json results;

@@ -2,7 +2,8 @@
 //
 //  Condensation of a square of quadratic elements, 1e4 to 2e6 dofs, to 201 contact nodes; a
 //  block on a block twice as stiff, 51 to 4001 contact nodes, from mesh to reduced problem, and
-//  its friction steps in partial slip; a punch in 1 to 1000 cycles. Each row is a process of
+//  its friction steps in partial slip; a punch in 1 to 1000 cycles. In space: a cube and a
+//  plate of linear hexahedra, 3e4 to 3e5 dofs, to 961 contact nodes. Each row is a process of
 //  its own. Times are CPU time, on one thread; exponents are fitted to all rows.
 
 #include "common/figure.hpp"
@@ -11,6 +12,8 @@
 #include "common/options.hpp"
 #include "common/punch.hpp"
 
+#include <cattaneo/contact/boundary_surface.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
@@ -94,6 +97,41 @@ std::vector<double> condensation(int side)
    const double done = cpu_seconds();
    return {double(body.dofs()), double(condensed.line.size()), assembled - began,
            done - assembled, done - began};
+}
+
+/// A block of `side` × `side` × `layers` cubes that stands on its base, to a square of
+/// 31 × 31 contact nodes in the middle of its top.
+std::vector<double> condensation_in_space(int side, int layers)
+{
+   const double began = cpu_seconds();
+   mfem::Mesh mesh = mfem::Mesh::MakeCartesian3D(side, side, layers, mfem::Element::HEXAHEDRON,
+                                                 side, side, layers);
+   const int base = 1, top = 6, contact = 7, faces = 30;
+   const double first = (side - faces) / 2, last = first + faces;
+   for (int face = 0; face < mesh.GetNBE(); ++face)
+   {
+      if (mesh.GetBdrAttribute(face) != top) { continue; }
+      mfem::Array<int> corners;
+      mesh.GetBdrElementVertices(face, corners);
+      bool within = true;
+      for (const int corner : corners)
+      {
+         for (int axis : {0, 1})
+         {
+            const double at = mesh.GetVertex(corner)[axis];
+            within = within && at > first - 0.5 && at < last + 0.5;
+         }
+      }
+      if (within) { mesh.SetBdrAttribute(face, contact); }
+   }
+   mesh.SetAttributes();
+   ElasticBody body(mesh, 1, Material{1.0, 0.3});
+   for (int component : {0, 1, 2}) { body.fix(base, component); }
+   const double assembled = cpu_seconds();
+   const CondensedBody condensed = condense(body, contact_surface(body, contact));
+   const double done = cpu_seconds();
+   return {double(body.dofs()), double(condensed.nodes()), assembled - began, done - assembled,
+           done - began};
 }
 
 std::vector<double> pair_of_blocks(int nodes)
@@ -185,17 +223,18 @@ int main(int argc, char *argv[])
          std::string csv, picture;
          double largest = 2e6;
          int most = 4001;
-         miniapp::Options args(argc, argv);
+         miniapp::Options args("benchmarks/benchmark_scaling.cpp", argc, argv);
          args.add(&largest, "dofs", "Largest number of dofs.");
          args.add(&most, "nodes", "Largest number of contact nodes.");
          args.add(&csv, "csv", "Prefix of the panels' files.", miniapp::Text::prefix);
          args.add(&picture, "plot", "File for the picture.", miniapp::Text::picture);
          args.parse();
          std::vector<miniapp::Sheet> panels;
+         const std::vector<const char *> columns = {"dofs", "contact nodes", "assembly s",
+                                                    "condensation s", "whole s"};
          {
-            PrintedTable table(
-               "Condensation of a square to 201 contact nodes or fewer",
-               {"dofs", "contact nodes", "assembly s", "condensation s", "whole s"});
+            PrintedTable table("Condensation of a square to 201 contact nodes or fewer",
+                               columns);
             for (int side : {35, 70, 112, 223, 353, 500})
             {
                if (2.0 * (2 * side + 1) * (2 * side + 1) > 1.01 * largest) { continue; }
@@ -203,6 +242,22 @@ int main(int argc, char *argv[])
             }
             panels.push_back(table.finish("dofs", {2, 3}));
          }
+         const auto in_space = [&](const char *name, const char *title,
+                                   const std::vector<std::pair<int, int>> &sizes)
+         {
+            PrintedTable table(title, columns);
+            for (const auto &[side, layers] : sizes)
+            {
+               if (3.0 * (side + 1) * (side + 1) * (layers + 1) > 1.05 * largest) { continue; }
+               table.row([side = side, layers = layers]
+                         { return condensation_in_space(side, layers); });
+            }
+            panels.push_back(table.finish(name, {2, 3}));
+         };
+         in_space("cube", "Condensation of a cube of linear hexahedra to 961 contact nodes",
+                  {{32, 32}, {36, 36}, {46, 46}});
+         in_space("plate", "Condensation of a plate of 8 linear hexahedra to 961 contact nodes",
+                  {{32, 8}, {52, 8}, {74, 8}, {104, 8}});
          {
             PrintedTable table("Two blocks: contact nodes",
                                {"contact nodes", "dofs", "to reduced s", "first steps s",

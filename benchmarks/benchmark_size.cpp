@@ -111,7 +111,7 @@ int main(int argc, char *argv[])
       [&]
       {
          std::vector<double> nodes{1001, 2001}, threads{1, 2};
-         miniapp::Options args(argc, argv);
+         miniapp::Options args("benchmarks/benchmark_size.cpp", argc, argv);
          args.add(&nodes, "nodes", "Contact nodes of each study, odd numbers.");
          args.add(&threads, "threads", "Threads of the dense linear algebra.");
          args.parse();

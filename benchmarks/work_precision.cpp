@@ -297,7 +297,7 @@ int main(int argc, char *argv[])
          std::string wanted, csv, picture;
          std::vector<double> orders = {1, 2, 3, 4};
          int levels = 3, samples = 2;
-         miniapp::Options args(argc, argv);
+         miniapp::Options args("benchmarks/work_precision.cpp", argc, argv);
          args.add(&wanted, "problems",
                   "Names: hertz lubkin punch strip disc lap_joint shakedown (all).");
          args.add(&orders, "orders", "Orders of the elements.");

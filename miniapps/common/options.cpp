@@ -165,8 +165,8 @@ std::string replaced(const std::string &text, const std::string &separators,
 
 } // namespace
 
-Options::Options(const std::string &program, int argc, char *argv[])
-   : program_(program), words_(argv, argv + argc)
+Options::Options(const std::string &source, int argc, char *argv[])
+   : source_(source), words_(argv, argv + argc)
 {
    add(&case_file_, "case", "JSON file with options; those of the command line override it.",
        Text::input);
@@ -349,7 +349,7 @@ void Options::read_words()
 void Options::print_head() const
 {
    // The head comment of a program's source has its purpose, its units, and sample runs.
-   std::ifstream source(shipped("miniapps/" + program_ + ".cpp"));
+   std::ifstream source(shipped(source_));
    for (std::string line; std::getline(source, line) && line.rfind("//", 0) == 0;)
    {
       std::printf("%s\n", line.substr(std::min<std::size_t>(4, line.size())).c_str());

@@ -56,8 +56,8 @@ extern const char *const domain_help;
 class Options
 {
 public:
-   /// @param program whose head comment -h prints first
-   Options(const std::string &program, int argc, char *argv[]);
+   /// @param source of the program, in the repository: -h prints its head comment first
+   Options(const std::string &source, int argc, char *argv[]);
 
    /// The name of an option, typed as --name or -name, and the name that turns a flag off,
    /// which is --no-name unless another is given.
@@ -179,7 +179,7 @@ private:
    /// What --set says.
    void change();
 
-   const std::string program_;
+   const std::string source_;
    const std::vector<std::string> words_; ///< of the command line
    std::deque<Option> options_;           ///< these stay where they are
    std::vector<Given> given_;

@@ -24,7 +24,7 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 Study::Study(const std::string &name, int argc, char *argv[])
-   : options_(name, argc, argv), name_(name)
+   : options_("miniapps/" + name + ".cpp", argc, argv), name_(name)
 {
    const std::string file = shipped("miniapps/data/references.json");
    if (!fs::exists(file))

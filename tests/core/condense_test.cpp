@@ -893,6 +893,47 @@ TEST(CondenseMatrix, ObstacleMotionsHaveNamesOfTheirOwn)
    EXPECT_LT((reduction.problem.patterns.back().p - 2 * once.p).norm(), 1e-12 * once.p.norm());
 }
 
+/// Conjugates at rest by reciprocity: an obstacle that moves by d has the pattern f = K d, and
+/// its reaction to a pattern f' is dᵀ f' = fᵀ K⁻¹ f'.
+TEST(CondenseMatrix, ObstaclesThatMoveReactToTheOtherLoads)
+{
+   const Frame frame(3, 2, true);
+   Reduction reduction = reduce(condense(frame.body(true), frame.line()));
+   const int motion = static_cast<int>(reduction.problem.patterns.size());
+   reduction.add_obstacle_motion(
+      "turn", [](double, double y) { return 0.5 - y; },
+      [](double x, double) { return x - 0.7; });
+   reduction.add_obstacle_motion("askew", 1.0, 0.3);
+   const ReducedProblem &problem = reduction.problem;
+   problem.validate();
+   const auto of_pattern = [&](int k)
+   {
+      VectorXd f(problem.K.rows());
+      f << problem.patterns[k].q, problem.patterns[k].p;
+      return f;
+   };
+   const Eigen::LDLT<MatrixXd> stiffness(problem.K);
+   for (int a : {motion, motion + 1})
+   {
+      const VectorXd d = stiffness.solve(of_pattern(a));
+      for (int b = 0; b < motion + 2; ++b)
+      {
+         const double reaction = d.dot(of_pattern(b));
+         EXPECT_NEAR(problem.H(a, b), reaction, 1e-12 * of_pattern(b).norm()) << a << " " << b;
+         const bool force = problem.patterns[b].control == Control::force;
+         EXPECT_NEAR(problem.H(b, a), force ? -reaction : reaction,
+                     1e-12 * of_pattern(b).norm());
+      }
+   }
+   expect_input_error(
+      [&]
+      {
+         const VectorXd u = VectorXd::Zero(problem.nodes());
+         reduction.displacement(1, u, u, VectorXd::Zero(motion + 2));
+      },
+      "displacement: body 1, must be from 0 to 0");
+}
+
 TEST(CondenseMatrix, AnObstacleThatMovesKnowsNoMoreOfTheOtherLoads)
 {
    const Frame frame(3, 2, true);

@@ -471,6 +471,36 @@ TEST_F(Interfaces, OfAClampedEndLeaveItOut)
    }
 }
 
+/// An end of the slave that is clamped has a row all the same if the node that it is paired
+/// with can open from it.
+TEST_F(Interfaces, OfAClampedEndHaveItsRowIfThePartnerMoves)
+{
+   for (const bool opens : {true, false})
+   {
+      Truss upper({side({0, 0}, {2, 0}, 4, 2)}, {1, 1}),
+         lower({side({2, 0}, {0, 0}, 4, 2)}, {1, -1});
+      upper.load("P");
+      lower.hold().load("P");
+      upper.fixed = {0, 1};
+      for (int dof : upper.fixed) { upper.loads[0].values[dof] = 0; }
+      // The last node of the lower line, along the line or along and across it.
+      const int end = 4 * 4;
+      lower.fixed.insert(lower.fixed.begin(), end);
+      lower.loads[0].values[end] = 0;
+      if (!opens)
+      {
+         lower.fixed.insert(lower.fixed.begin() + 1, end + 1);
+         lower.loads[0].values[end + 1] = 0;
+      }
+      const ContactLine &above = upper.lines[0], &below = lower.lines[0];
+      Interface one = between(0, above, 1, below, SlaveSide::first);
+      one.pairing = pair_lines(above, below);
+      Reduction reduction = reduce({upper.condensed(), lower.condensed()}, {one});
+      EXPECT_EQ(reduction.interfaces[0].nodes, opens ? 9 : 8);
+      EXPECT_EQ(reduction.interfaces[0].without_row.size(), opens ? 0u : 1u);
+   }
+}
+
 /// Both lips of a slit in one body, which have their tip in common: it carries no row.
 TEST_F(Interfaces, OfABodyWithItselfLeaveOutTheTip)
 {
@@ -1300,6 +1330,13 @@ TEST_F(Interfaces, ObstaclesUnderForcesAreInEquilibrium)
          rest.free_obstacles({{"Q", 1, {{0, 0.0, up}}}, {"R", 1, {{0, 0.0, up}}}});
       },
       "the bodies do not resist all motions of the obstacles");
+   const std::vector<Interface> floor{{"floor", {0, body.lines[0]}, {}}};
+   Reduction named = reduce({body.condensed()}, floor);
+   expect_input_error(
+      [&] {
+         named.free_obstacles({{"Q", 1, {{0, 0.0, up}}}, {"R", 1, {{0, 0.0, up}}}});
+      },
+      "all motions of the obstacles of interface 'floor': support");
 }
 
 /// Bolts that are tightened one after the other, under a load, and again: each has the force of

@@ -171,6 +171,8 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
    refused("the stiffness is 4×6, must have", [](auto &p) { p.K = MatrixXd::Identity(4, 6); });
    refused("3 tangential components", [](auto &p)
            { p.set_stiffness(MatrixXd::Identity(6, 6), MatrixXd::Zero(2, 6), p.C()); });
+   refused("the stiffness has an entry that is not finite",
+           [](auto &p) { p.C()(1, 0) = std::numeric_limits<double>::quiet_NaN(); });
    refused("must be the transpose of B", [](auto &p) { p.B()(0, 1) = 0; });
    refused("`coupled` is false, but B is not zero", [](auto &p) { p.coupled = false; });
    refused("`coupled` is true, but B is zero",

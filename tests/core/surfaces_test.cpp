@@ -753,6 +753,12 @@ TEST(Surfaces, WrongSurfacesAreRefused)
    expect_input_error([&] { pair_surfaces(above, below); }, "without a partner");
    expect_input_error([&] { pair_surfaces(above, away); }, "do not face each other anywhere");
    EXPECT_NEAR(pair_surfaces(above, below, 0.2).gap.minCoeff(), 0.5, 1e-15);
+   for (const bool second : {false, true})
+   {
+      ContactSurface one = above, two = below;
+      (second ? two : one).nodes[1].spacing = 0;
+      expect_input_error([&] { pair_surfaces(one, two, 0.2); }, "the spacing 0");
+   }
    expect_input_error([] { straight_line({0, 1}, 1, Formulation::space); }, "it is in space");
    ContactLine line = straight_line({0, 1}, 1);
    line.formulation = Formulation::space;
