@@ -27,6 +27,9 @@ def main():
         return 77
     # Without MFEM: nothing that was built here is named.
     clean = {key: value for key, value in os.environ.items() if key not in ("MFEM_DIR", "PYTHONPATH")}
+    # Case files are read by the program of the build, if it is there.
+    if (folder.parent / "miniapps" / "contact").is_file():
+        clean["CATTANEO_BIN"] = str(folder.parent / "miniapps")
     # In the folder of the tests, so that the folder `python` of the repository is not what is imported.
     return run(*pip, "install", "-q", "--no-build-isolation", ROOT, env=clean) or run(
         python, "-m", "pytest", "-q", "-p", "no:cacheprovider", ROOT / "python" / "tests", cwd=folder, env=clean
