@@ -59,7 +59,8 @@ def main():
     pip = [folder / "venv" / "bin" / "python", "-m", "pip", "--disable-pip-version-check"]
     if run(*pip, "install", "-q", "--target", root / "site", wheel, "numpy", "scipy", "scikit-fem", "pytest"):
         return 1
-    for name in ("python/tests", "problems", "meshes", "docs"):
+    # Settings are compared with the headers that they come from.
+    for name in ("python/tests", "plugin/cattaneo", "problems", "meshes", "docs"):
         shutil.copytree(ROOT / name, root / "source" / name)
     environment = ["PATH=/usr/bin:/bin", "PYTHONPATH=/site", "OPENBLAS_NUM_THREADS=1", "HOME=/tmp"]
     words = ["python3", "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "--ignore=/source/python/tests/test_examples.py"]
