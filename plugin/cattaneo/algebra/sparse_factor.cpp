@@ -528,7 +528,8 @@ public:
 } // namespace
 
 SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing,
-                           double shift, Backend backend, const std::vector<int> &nodes)
+                           double shift, [[maybe_unused]] Backend backend,
+                           const std::vector<int> &nodes)
 {
    require(K.rows() == K.cols(), "sparse factor: the matrix (", K.rows(), "×", K.cols(),
            ") must be square");
