@@ -17,6 +17,7 @@
 
 #include "common/contact_edges.hpp"
 #include "common/own_history.hpp"
+#include "contact/bolts_report.hpp"
 #include "contact/contact_in_space.hpp"
 #include "contact/example_case.hpp"
 #include "contact/joint_report.hpp"
@@ -236,9 +237,14 @@ void contact(Study &study)
    NamedPoints points(study, joint, own);
    points.begin(history.state);
    JointReport joint_report(study, joint, own.scene.reduction);
-   joint_report.begin(history, history.bolts);
-   history.keep = [&](ContactState &reached) { joint_report.keep(reached); };
-   if (history.state.time > 0) { joint_report.note(history.state, 0); }
+   BoltsReport bolts(study, joint, own.scene.reduction);
+   bolts.begin(history, history.bolts);
+   history.keep = [&](ContactState &reached) { bolts.keep(reached); };
+   if (history.state.time > 0)
+   {
+      joint_report.note(history.state, 0);
+      bolts.note(history.state);
+   }
    SmallDisplacements small(own.scene.reduction, even);
    std::optional<ReductionFields> fields;
    if (!options.paraview.empty())
@@ -266,6 +272,7 @@ void contact(Study &study)
                     sketch.note(reached);
                     for (auto &side : beyond_corners) { side.note(reached); }
                     joint_report.note(reached, history.cycle);
+                    bolts.note(reached);
                     if (touches) { small.note(reached); }
                     points.note(reached);
                     if (touches && reached.p.maxCoeff() > pressed.maxCoeff())
@@ -304,8 +311,9 @@ void contact(Study &study)
 
    history.report_state(problem, joint_report.of_state(history.state));
    joint_report.report(history.state, history.report);
+   bolts.report(history.state);
    points.report(history.state);
-   report_reactions(study, joint, own, joint_report, history.state);
+   report_reactions(study, joint, own, bolts, history.state);
    history.report_march(problem);
    if (!snapshots.times.empty() && snapshots.complete())
    {

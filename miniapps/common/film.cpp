@@ -89,19 +89,38 @@ Film::Film(const std::string &name, const ReducedProblem &problem, const Units &
             {"interfaces", interfaces}};
 }
 
+void Film::show_maps(const ordered_json &interfaces, Fields fields)
+{
+   head_["interfaces"] = interfaces;
+   head_["places"] = ordered_json::array();
+   head_["position"] = ordered_json::array();
+   head_["maps"] = true;
+   fields_ = std::move(fields);
+   // A map has five numbers a node.
+   most_ = std::clamp<std::size_t>(most_ / 3, 20, 200);
+}
+
 void Film::add(const ReducedProblem &problem, const ContactState &state,
                const IncrementRecord &record)
 {
-   ordered_json zones = ordered_json::array();
-   for (const Zone &zone : drawn_zones(problem, state))
+   if (fields_)
    {
-      zones.push_back({name(zone.state), rounded(zone.from.position), rounded(zone.to.position),
-                       problem.chains[zone.chain].interface});
+      last_ = fields_(state);
+      last_["row"] = history_.size();
    }
-   last_ = {{"row", history_.size()},
-            {"p", list(tractions(problem, state.p))},
-            {"q", list(tractions(problem, shear(problem, state)))},
-            {"zones", zones}};
+   else
+   {
+      ordered_json zones = ordered_json::array();
+      for (const Zone &zone : drawn_zones(problem, state))
+      {
+         zones.push_back({name(zone.state), rounded(zone.from.position),
+                          rounded(zone.to.position), problem.chains[zone.chain].interface});
+      }
+      last_ = {{"row", history_.size()},
+               {"p", list(tractions(problem, state.p))},
+               {"q", list(tractions(problem, shear(problem, state)))},
+               {"zones", zones}};
+   }
    if (history_.size() % stride_ == 0) { frames_.push_back(last_); }
    history_.push_back({{"time", record.time},
                        {"cycle", record.cycle},

@@ -4,6 +4,7 @@
 
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/readout/zones.hpp>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,6 +18,11 @@ class Film
 {
 public:
    Film(const std::string &name, const cattaneo::ReducedProblem &problem, const Units &units);
+   /// The fields of a state on all nodes, as JSON.
+   using Fields = std::function<nlohmann::ordered_json(const cattaneo::ContactState &)>;
+   /// For contact on surfaces, which have no zones: the interfaces as maps, and the fields of
+   /// their nodes in place of the tractions along lines.
+   void show_maps(const nlohmann::ordered_json &interfaces, Fields fields);
    /// To be called with every accepted increment of that problem.
    void add(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state,
             const cattaneo::IncrementRecord &record);
@@ -28,6 +34,7 @@ private:
    std::vector<nlohmann::ordered_json> history_, frames_;
    nlohmann::ordered_json last_; ///< frame, even if it is not among the kept ones
    std::size_t most_, stride_ = 1;
+   Fields fields_; ///< of maps
 };
 
 /// Zones as they are drawn. A zone of a single node has no length, and gets one to be visible.

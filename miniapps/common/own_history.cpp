@@ -509,7 +509,8 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
                       "because no file has the earlier ones",
                       ended));
    }
-   Film *film = problem.chains.empty() ? nullptr : study_.film(problem);
+   Film *film = problem.chains.empty() && !show_maps ? nullptr : study_.film(problem);
+   if (film && show_maps) { show_maps(*film); }
    std::deque<IncrementRecord> last_increments;
    const auto with_what_is_kept = [&](ContactState reached)
    {

@@ -51,6 +51,8 @@ public:
    std::function<void(cattaneo::ContactState &)> keep;
    /// Bolts that the history tightens; must outlive it. Null: there are none.
    const cattaneo::BoltedJoint *bolts = nullptr;
+   /// For contact on surfaces: shows its maps in the film of the march.
+   std::function<void(Film &)> show_maps;
    /// Loads that take the multiplier of another load: name of the load → name of the other.
    std::map<std::string, std::string> go_with;
    cattaneo::MarchSettings settings;

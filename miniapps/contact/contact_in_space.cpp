@@ -1,9 +1,13 @@
 #include "contact/contact_in_space.hpp"
 
 #include "common/own_history.hpp"
+#include "contact/bolts_report.hpp"
+#include "contact/load_sizes.hpp"
+#include "contact/own_bolts.hpp"
 #include "contact/own_part.hpp"
 #include "contact/own_warnings.hpp"
 #include "contact/report_in_space.hpp"
+#include "contact/sketch.hpp"
 
 #include <algorithm>
 #include <cattaneo/contact/condense_body.hpp>
@@ -178,14 +182,84 @@ PartInSpace made_part(Scene &scene, const JointCase &joint, const JointCase::Bod
    return part;
 }
 
+/// Adds the forces of a bolt to the bodies at its ends, spread evenly over its parts.
+void pull_bolt(const JointCase::Bolt &bolt, const JointCase &joint,
+               std::vector<PartInSpace> &parts)
+{
+   for (const PartInSpace &part : parts)
+   {
+      for (const BodyLoad &load : part.body->patterns())
+      {
+         require(load.name != bolt.name, part.called(), " has a load '", bolt.name,
+                 "', which is the name of a bolt: rename one of the two");
+      }
+   }
+   std::array<Vector3d, 2> ends{Vector3d::Zero(), Vector3d::Zero()};
+   std::array<BoundaryPart, 2> on{BoundaryPart(0), BoundaryPart(0)};
+   std::array<double, 2> area{};
+   for (const int k : {0, 1})
+   {
+      const JointCase::Side &end = bolt.ends[k];
+      if (end.body < 0) { continue; } // the ground
+      const PartInSpace &part = parts[end.body];
+      part.named(
+         [&]
+         {
+            require(!end.part.empty(), end.called,
+                    " is empty, must name a part of the boundary");
+            on[k] = boundary_part(end.called, end.part, part.terms);
+            const ElasticBody::Extent extent =
+               part.body->extent(on[k], end.called + ": '" + end.part + "'");
+            require(extent.size > 0, end.called, ": there is nothing on '", end.part,
+                    "', must be a part of the boundary");
+            ends[k] = extent.middle;
+            area[k] = extent.size;
+         });
+   }
+   const Vector3d along = bolt_direction(joint, bolt, ends);
+   bool held = true;
+   for (const int k : {0, 1})
+   {
+      if (bolt.ends[k].body < 0) { continue; }
+      PartInSpace &part = parts[bolt.ends[k].body];
+      // The shank pulls the ends together.
+      const Vector3d traction = (k == 0 ? -bolt.force : bolt.force) / area[k] * along;
+      part.named(
+         [&]
+         { part.body->add_traction(bolt.name, on[k], traction[0], traction[1], traction[2]); });
+      const mfem::Array<int> fixed = part.body->essential_dofs();
+      const Eigen::VectorXd &forces = part.body->patterns().back().values;
+      const double small = 1e-12 * forces.cwiseAbs().maxCoeff();
+      for (Index dof = 0; dof < forces.size(); ++dof)
+      {
+         held = held && (std::abs(forces[dof]) <= small ||
+                         std::binary_search(fixed.begin(), fixed.end(), static_cast<int>(dof)));
+      }
+   }
+   if (held) { warn_of_bolt_on_supports(bolt); }
+}
+
 /// The gaps of the nodes of a side to the obstacle.
 Eigen::VectorXd gaps_to(const JointCase::Face &face, const ContactSurface &surface)
 {
    const JointCase::Face::Solid &solid = *face.solid;
    try
    {
-      return std::isnan(solid.radius) ? gaps_to_plane(surface, solid.point, solid.normal)
-                                      : gaps_to_sphere(surface, solid.point, solid.radius);
+      using Shape = JointCase::Face::Solid::Shape;
+      switch (solid.shape)
+      {
+      case Shape::sphere:
+         return gaps_to_sphere(surface, solid.point, solid.radius);
+      case Shape::cylinder:
+         return gaps_to_cylinder(surface, solid.point, solid.axis, solid.radius);
+      case Shape::height:
+         return gaps_to_height(surface,
+                               [&](double x, double y) {
+                                  return (*solid.height)({x, y});
+                               });
+      default:
+         return gaps_to_plane(surface, solid.point, solid.axis);
+      }
    }
    catch (const InputError &error)
    {
@@ -278,6 +352,7 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
    {
       parts.push_back(made_part(own.scene, joint, said));
    }
+   for (const JointCase::Bolt &bolt : joint.bolts) { pull_bolt(bolt, joint, parts); }
    std::vector<std::vector<ContactSurface>> of_body(parts.size());
    std::vector<Interface> interfaces;
    for (const JointCase::Face &face : joint.faces)
@@ -327,7 +402,9 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
    own.scene.reduction = reduce(std::move(condensed), interfaces);
    check_overlaps(joint, own.scene.reduction);
    set_laws(joint, own.scene.reduction);
-   move_obstacles_in_space(own.scene.reduction, joint);
+   add_bolts(own.scene.reduction, own.bolted, joint,
+             [&joint](Reduction &made) { move_obstacles_in_space(made, joint); });
+   set_load_sizes(own, joint);
    return own;
 }
 
@@ -343,6 +420,8 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    require(problem.nodes() > 0,
            "all interfaces are tied, so nothing can open or slip: one at least must not have "
            "the key tied");
+   report_load_sizes(study, problem);
+   history.bolts = own.bolted ? &*own.bolted : nullptr;
    history.go_with = joint.go_with;
    history.begin(problem);
    study.counters += reduction.counters;
@@ -356,7 +435,19 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    }
    warn_of_accuracy(own.accuracy);
    ReportInSpace report(study, joint, own);
-   if (history.state.time > 0) { report.note(history.state, 0); }
+   history.show_maps = [&](Film &film)
+   {
+      film.show_maps(report.maps(),
+                     [&](const ContactState &reached) { return report.fields(reached); });
+   };
+   BoltsReport bolts(study, joint, reduction);
+   bolts.begin(history, history.bolts);
+   history.keep = [&](ContactState &reached) { bolts.keep(reached); };
+   if (history.state.time > 0)
+   {
+      report.note(history.state, 0);
+      bolts.note(history.state);
+   }
    std::optional<ReductionFields> fields;
    if (!paraview.empty())
    {
@@ -368,22 +459,27 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
       }
       fields.emplace(own.scene.fields(paraview));
    }
+   Sketch sketch(study, own.scene);
    const Counters &spent = reduction.counters;
    int frames = 0;
    history.march(problem,
                  [&](const ContactState &reached, bool frame)
                  {
                     report.note(reached, history.cycle);
+                    bolts.note(reached);
+                    sketch.note(reached);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // the cost of the frame is added
                     fields->write(reached);
                     study.counters += spent;
                     ++frames;
                  });
+   sketch.report();
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, paraview.c_str())); }
    history.report_state(problem, report.of_state(history.state));
-   report.report(history.state, history.report);
+   report.report(history.state, history.report, bolts);
+   bolts.report(history.state);
    history.report_march(problem);
 }
 

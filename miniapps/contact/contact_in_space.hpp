@@ -12,10 +12,11 @@ struct BodiesInSpace
 {
    Scene scene;
    double accuracy = 0; ///< estimated relative error of the stiffness, the worst
-   std::vector<std::vector<Holding>> holdings; ///< of each body
+   std::vector<std::vector<Holding>> holdings;  ///< of each body
+   std::optional<cattaneo::BoltedJoint> bolted; ///< for bolts that are tightened to a force
 };
 
-/// InputError naming body and key.
+/// InputError naming body and key. The case must outlive them.
 BodiesInSpace make_bodies_in_space(const JointCase &joint);
 
 /** Marches a case of bodies in space and reports it. `history` has its options, `paraview` is a

@@ -448,30 +448,56 @@ JointCase::Side side(const Key &key, const JointCase &joint)
    return made;
 }
 
-/// In space {"plane": {"point": [x, y, z], "normal": [x, y, z]}} or {"sphere": {"centre": […],
-/// "radius": r}}.
+/// In space {"plane": {"point": […], "normal": […]}}, {"sphere": {"centre": […], "radius": r}},
+/// {"cylinder": {"point": […], "axis": […], "radius": r}} or {"height": "0.01*(x^2+y^2)"}.
 void add_obstacle_in_space(JointCase::Face &face, const Key &key)
 {
-   key.must_be_of({"plane", "sphere"});
+   using Shape = JointCase::Face::Solid::Shape;
+   key.must_be_of({"plane", "sphere", "cylinder", "height"});
    require(key.value().size() == 1, key.called(),
-           " must have one of the keys plane and sphere");
-   face.solid.emplace();
+           " must have one of the keys plane, sphere, cylinder and height");
+   JointCase::Face::Solid &solid = face.solid.emplace();
+   const auto set_axis = [&](const Key &axis)
+   {
+      solid.axis = axis.triple();
+      require(solid.axis.norm() > 0, axis.called(), " is (0, 0, 0), must have a length");
+   };
+   const auto set_radius = [&](const Key &radius)
+   {
+      solid.radius = radius.number();
+      require(solid.radius != 0, radius.called(),
+              " is 0, must be positive, or negative for a hollow");
+   };
    if (key.has("plane"))
    {
       const Key plane = key["plane"];
       plane.must_be_of({"point", "normal"});
-      face.solid->point = plane["point"].triple();
-      face.solid->normal = plane["normal"].triple();
-      require(face.solid->normal.norm() > 0, plane["normal"].called(),
-              " is (0, 0, 0), must have a length");
-      return;
+      solid.point = plane["point"].triple();
+      set_axis(plane["normal"]);
    }
-   const Key sphere = key["sphere"];
-   sphere.must_be_of({"centre", "radius"});
-   face.solid->point = sphere["centre"].triple();
-   face.solid->radius = sphere["radius"].number();
-   require(face.solid->radius != 0, sphere["radius"].called(),
-           " is 0, must be positive, or negative for a hollow");
+   else if (key.has("sphere"))
+   {
+      const Key sphere = key["sphere"];
+      sphere.must_be_of({"centre", "radius"});
+      solid.shape = Shape::sphere;
+      solid.point = sphere["centre"].triple();
+      set_radius(sphere["radius"]);
+   }
+   else if (key.has("cylinder"))
+   {
+      const Key cylinder = key["cylinder"];
+      cylinder.must_be_of({"point", "axis", "radius"});
+      solid.shape = Shape::cylinder;
+      solid.point = cylinder["point"].triple();
+      set_axis(cylinder["axis"]);
+      set_radius(cylinder["radius"]);
+   }
+   else
+   {
+      solid.shape = Shape::height;
+      solid.height.emplace(key["height"].called(), key["height"].text(),
+                           std::vector<std::string>{"x", "y"});
+   }
 }
 
 /// {"line": [[x, y], [x, y], …]}, {"curve": "0.01*x^2"} or {"circle": {"centre": [x, y],
@@ -712,10 +738,14 @@ JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &j
       "the part that it pulls");
    if (key.has("direction"))
    {
-      const std::array<double, 2> along = key["direction"].pair();
-      made.direction = Eigen::Vector2d(along[0], along[1]);
-      require(made.direction->norm() > 0, key.called(),
-              ": its direction is (0, 0), must have a length");
+      if (joint.in_space()) { made.direction = key["direction"].triple(); }
+      else
+      {
+         const std::array<double, 2> along = key["direction"].pair();
+         made.direction = Eigen::Vector3d(along[0], along[1], 0);
+      }
+      require(made.direction->norm() > 0, key.called(), ": its direction is (0, 0",
+              joint.in_space() ? ", 0" : "", "), must have a length");
       made.direction->normalize();
    }
    made.stiffness = key["stiffness"].number(positive);
@@ -894,7 +924,6 @@ JointCase joint_case(const JointKeys &keys, int order)
    {
       joint.formulation = Formulation::space;
       require(order <= 2, "key 'order' is ", order, ", in space it must be 1 or 2");
-      require(keys.bolts.is_null(), "key 'bolts' is not for bodies in space: leave it out");
       require(keys.points.is_null(), "key 'points' is not for bodies in space: leave it out");
       require(std::isnan(keys.thickness),
               "key 'thickness' is not for bodies in space: leave it out");

@@ -123,13 +123,20 @@ struct JointCase
       std::vector<Motion> motions;
       /// Guide of a rigid obstacle that is free in some way, or under forces.
       std::optional<cattaneo::Guide> guide;
-      /// In space: a rigid plane (its normal, of any sign) or a sphere (a hollow has a negative
-      /// radius), and how it moves along x, y and z.
+      /// In space: the shape of a rigid obstacle, and how it moves along x, y and z.
       struct Solid
       {
-         Eigen::Vector3d point{0, 0, 0}; ///< of the plane, or the centre
-         Eigen::Vector3d normal{0, 0, 1};
-         double radius = none; ///< not given: a plane
+         enum class Shape
+         {
+            plane,    ///< through a point, with a normal of any sign
+            sphere,   ///< a hollow has a negative radius
+            cylinder, ///< about an axis through a point; a bore has a negative radius
+            height    ///< z as a function of x and y
+         } shape = Shape::plane;
+         Eigen::Vector3d point{0, 0, 0}; ///< of the plane or the axis, or the centre
+         Eigen::Vector3d axis{0, 0, 1};  ///< or the normal of the plane
+         double radius = none;
+         std::optional<cattaneo::Expression> height;
       };
       std::optional<Solid> solid;
       std::optional<std::array<cattaneo::Guide::Along, 3>> moves;
@@ -146,7 +153,7 @@ struct JointCase
       std::array<Side, 2> ends; ///< the second without a body: the ground
       /// From the second end to the first. Not given: the line between their middles; in
       /// axisymmetry the direction of the axis.
-      std::optional<Eigen::Vector2d> direction;
+      std::optional<Eigen::Vector3d> direction; ///< the third of it in space alone
       double stiffness = 1;
       /// The force of its load: the force that the bolt would have if the clamped parts were
       /// rigid, or with `tightened` the force when its tightening ends.

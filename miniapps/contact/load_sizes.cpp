@@ -1,7 +1,10 @@
 #include "contact/load_sizes.hpp"
 
 #include "common/load_axes.hpp"
+#include "contact/report_in_space.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cattaneo/words.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -12,7 +15,7 @@ namespace miniapp
 
 using namespace cattaneo;
 using Eigen::Index;
-using Eigen::Vector2d;
+using Eigen::Vector3d;
 using nlohmann::ordered_json;
 
 namespace
@@ -21,15 +24,16 @@ namespace
 /// The share of one body, guide, obstacle or bolt in a load.
 struct Share
 {
-   std::string kind;     ///< as in LoadSize; "forces": on nodes of a body
-   Vector2d along{0, 0}; ///< the resultant, or the displacement
-   double moment = 0;    ///< about the origin; an angle; for a scalar kind its value
-   double size = 0;      ///< sum of the forces, to tell round-off from a resultant
-   double lever = 0;     ///< the same of the moment
-   std::string place;    ///< what is loaded
-   bool known = true;    ///< false: the statement has a function in place of a number
-   int statements = 1;   ///< number of the statements in it
-   double pressure = 0;  ///< for a single statement of a pressure
+   std::string kind;         ///< as in LoadSize; "forces": on nodes of a body
+   Vector3d along{0, 0, 0};  ///< the resultant, or the displacement
+   double moment = 0;        ///< about the origin; an angle; for a scalar kind its value
+   Vector3d couple{0, 0, 0}; ///< in space the moment about the origin
+   double size = 0;          ///< sum of the forces, to tell round-off from a resultant
+   double lever = 0;         ///< the same of the moment
+   std::string place;        ///< what is loaded
+   bool known = true;        ///< false: the statement has a function in place of a number
+   int statements = 1;       ///< number of the statements in it
+   double pressure = 0;      ///< for a single statement of a pressure
 };
 
 /// The value of a word that is a plain number; otherwise unknown.
@@ -66,8 +70,11 @@ public:
          if (moves)
          {
             made.kind = "displacement";
-            const bool first = kind.back() == 'x' || kind.back() == 'r';
-            made.along[first ? 0 : 1] = value.value_or(0);
+            const char way = kind.back();
+            const int component = way == 'x' || way == 'r'          ? 0
+                                  : joint_.in_space() && way == 'z' ? 2
+                                                                    : 1;
+            made.along[component] = value.value_or(0);
          }
          else if (kind == "twist") { made.kind = "rotation"; }
          else if (kind == "temperature" || (kind == "initial-strain" && last == 2))
@@ -94,6 +101,27 @@ public:
       }
    }
 
+   /// Forces on the nodes of a body in space.
+   void add_forces(const JointCase::Body &body, const ElasticBody &elastic)
+   {
+      for (const BodyLoad &load : elastic.patterns())
+      {
+         Share made;
+         if (load.control != Control::force || !describe(body, load.name, made)) { continue; }
+         for (int node = 0; node < elastic.node_coordinates().Width(); ++node)
+         {
+            Vector3d force;
+            for (const int c : {0, 1, 2}) { force[c] = load.values[elastic.true_dof(node, c)]; }
+            const Vector3d at = elastic.place(node);
+            made.along += force;
+            made.couple += at.cross(force);
+            made.size += force.lpNorm<1>();
+            made.lever += at.cross(force).lpNorm<1>();
+         }
+         add(load.name, made);
+      }
+   }
+
    /// Forces and torques on the nodes of a body.
    void add_forces(const JointCase::Body &body, const HeldBody &held, double thickness)
    {
@@ -107,7 +135,7 @@ public:
             // In axisymmetry radial forces cancel.
             if (!plane && held.component[dof] == 0) { continue; }
             const double force = thickness * load.values[dof];
-            const Vector2d &at = held.place[dof];
+            const Eigen::Vector2d &at = held.place[dof];
             made.along[held.component[dof]] += force;
             if (plane)
             {
@@ -131,14 +159,15 @@ public:
       }
    }
 
-   /// One motion of a rigid block, a guide or an obstacle. @param way 0: x, 1: y, 2: rotation
+   /// One motion of a rigid block, a guide or an obstacle. @param way 0: x, 1: y, 2: z in
+   /// space, otherwise the rotation
    void add_way(const Guide::Along &along, int way, const std::string &place)
    {
       if (along.load.empty()) { return; }
       Share made;
       made.place = place;
       const bool force = along.motion == Guide::Motion::force;
-      if (way == 2)
+      if (way == 2 && !joint_.in_space())
       {
          made.kind = force ? "moment" : "rotation";
          made.moment = along.value;
@@ -225,7 +254,7 @@ private:
    void add_resultant(const std::vector<Share> &shares, LoadSize &made) const
    {
       constexpr double none_of_it = 1e-9; // meshes have fewer digits than forces
-      Vector2d sum(0, 0);
+      Vector3d sum(0, 0, 0), couple = sum;
       double moment = 0, size = 0, lever = 0, apart = 0;
       int pushed = 0;
       bool torque = true;
@@ -236,6 +265,7 @@ private:
          torque = torque && one.kind == "torque";
          sum += one.along;
          moment += one.moment;
+         couple += one.couple;
          size += one.size;
          lever += one.lever;
          if (one.along.norm() > none_of_it * one.size)
@@ -249,17 +279,17 @@ private:
          made.kind = "force";
          made.value = sum.norm();
          for (double &x : sum) { x = settled(x, 1e3 * made.value); }
-         made.direction = {sum[0] / made.value, sum[1] / made.value};
+         set_direction(made, sum / made.value);
       }
       else if (pushed > 1)
       {
          made.kind = "opposite forces";
          made.value = apart;
       }
-      else if (std::abs(moment) > none_of_it * lever)
+      else if (std::hypot(moment, couple.norm()) > none_of_it * lever)
       {
          made.kind = torque ? "torque" : "moment";
-         made.value = std::abs(moment);
+         made.value = std::hypot(moment, couple.norm());
       }
       else if (shares.size() == 1 && shares[0].statements > 1)
       {
@@ -276,40 +306,72 @@ private:
    /// Components of one part add up. All parts must have the same motion.
    void add_displacement(const std::vector<Share> &shares, LoadSize &made) const
    {
-      std::map<std::string, Vector2d> parts;
+      std::map<std::string, Vector3d> parts;
       for (const Share &one : shares)
       {
          if (one.kind != "displacement") { return; }
-         Vector2d &its = parts.try_emplace(one.place, Vector2d(0, 0)).first->second;
-         for (const int c : {0, 1})
+         Vector3d &its = parts.try_emplace(one.place, Vector3d(0, 0, 0)).first->second;
+         for (const int c : {0, 1, 2})
          {
             if (one.along[c] != 0) { its[c] = one.along[c]; }
          }
       }
-      const Vector2d first = parts.begin()->second;
+      const Vector3d first = parts.begin()->second;
       for (const auto &part : parts)
       {
          if (part.second != first) { return; }
       }
       made.kind = "displacement";
       made.value = first.norm();
-      made.direction = {first[0] / made.value, first[1] / made.value};
+      set_direction(made, first / made.value);
+   }
+
+   /// LoadSize has directions of the plane. In space the words of the place have them.
+   void set_direction(LoadSize &made, const Vector3d &along) const
+   {
+      if (!joint_.in_space()) { made.direction = {along[0], along[1]}; }
+      else { made.place += " along " + direction_name(along); }
    }
 
    const JointCase &joint_;
    std::map<std::string, std::vector<Share>> all_;
 };
 
+/// Adds the motions of obstacles, and gives each load its size.
+void set_sizes(ReducedProblem &problem, Shares &shares, const JointCase &joint)
+{
+   for (const JointCase::Face &face : joint.faces)
+   {
+      const std::string place = "the obstacle of " + face.name;
+      if (face.guide) { shares.add_guide(*face.guide, place); }
+      for (int c = 0; face.moves && c < 3; ++c) { shares.add_way((*face.moves)[c], c, place); }
+      for (const JointCase::Motion &one : face.motions)
+      {
+         Share made;
+         made.place = place;
+         made.known = one.angle == 0 || one.along.norm() == 0;
+         made.kind = one.angle == 0 ? "displacement" : "rotation";
+         made.along = one.along;
+         made.moment = one.angle;
+         shares.add(one.load, made);
+      }
+   }
+   for (LoadPattern &pattern : problem.patterns)
+   {
+      const auto bolt =
+         std::find_if(joint.bolts.begin(), joint.bolts.end(),
+                      [&](const JointCase::Bolt &one) { return one.name == pattern.name; });
+      pattern.size = bolt != joint.bolts.end()
+                        ? LoadSize{"bolt", bolt->force, {0, 0}, bolt->name}
+                        : shares.of(pattern.name);
+   }
+}
+
 } // namespace
 
 void set_load_sizes(OwnBodies &own, const JointCase &joint)
 {
    Shares shares(joint);
-   std::map<std::string, LoadSize> bolts;
-   for (const JointCase::Bolt &bolt : joint.bolts)
-   {
-      bolts[bolt.name] = {"bolt", bolt.force, {0, 0}, bolt.name};
-   }
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
       const JointCase::Body &body = joint.bodies[b];
@@ -320,25 +382,18 @@ void set_load_sizes(OwnBodies &own, const JointCase &joint)
       }
       shares.add_forces(body, own.held[b], joint.thickness_of(static_cast<int>(b)));
    }
-   for (const JointCase::Face &face : joint.faces)
+   set_sizes(own.scene.problem(), shares, joint);
+}
+
+void set_load_sizes(BodiesInSpace &own, const JointCase &joint)
+{
+   Shares shares(joint);
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
-      if (face.guide) { shares.add_guide(*face.guide, "the obstacle of " + face.name); }
-      for (const JointCase::Motion &one : face.motions)
-      {
-         Share made;
-         made.place = "the obstacle of " + face.name;
-         made.known = one.angle == 0 || one.along.norm() == 0;
-         made.kind = one.angle == 0 ? "displacement" : "rotation";
-         made.along = one.along.head<2>();
-         made.moment = one.angle;
-         shares.add(one.load, made);
-      }
+      shares.add_statements(joint.bodies[b]);
+      shares.add_forces(joint.bodies[b], *own.scene.bodies[b]);
    }
-   for (LoadPattern &pattern : own.scene.problem().patterns)
-   {
-      const auto bolt = bolts.find(pattern.name);
-      pattern.size = bolt != bolts.end() ? bolt->second : shares.of(pattern.name);
-   }
+   set_sizes(own.scene.problem(), shares, joint);
 }
 
 void report_load_sizes(Study &study, const ReducedProblem &problem)

@@ -1,5 +1,6 @@
 #include "contact/own_bodies.hpp"
 
+#include "contact/own_bolts.hpp"
 #include "contact/own_half_plane.hpp"
 #include "contact/own_interfaces.hpp"
 #include "contact/own_part.hpp"
@@ -16,35 +17,6 @@ using namespace cattaneo;
 
 namespace
 {
-
-/// From the second end of a bolt to the first: the direction of the case, or the line between
-/// the middles of both ends. In axisymmetry it is along the axis, because the ends are rings.
-Eigen::Vector2d direction_of(const JointCase &joint, const JointCase::Bolt &bolt,
-                             const std::array<Eigen::Vector2d, 2> &ends)
-{
-   if (bolt.direction) { return *bolt.direction; }
-   Eigen::Vector2d apart = ends[0] - ends[1];
-   const double size = std::max(ends[0].norm(), ends[1].norm());
-   if (joint.formulation != Formulation::plane) { apart[0] = 0; }
-   require(apart.norm() > 1e-9 * size, bolt.source.called("between"),
-           ": the middles of both ends are at ", ends[0], " and ", ends[1],
-           ", so that no direction follows from them: the bolt must have the key 'direction', "
-           "which points from the second end to the first");
-   // Removes the round-off of the middles.
-   for (double &x : apart) { x = settled(x, 1e4 * apart.norm()); }
-   const double least = apart.cwiseAbs().minCoeff() / apart.norm(),
-                leans = std::asin(least) * 180 / std::acos(-1.0);
-   if (leans > 5)
-   {
-      warn("bolt '" + bolt.name + "' leans by " + text("%.3g", leans) +
-           " degrees, because it lies along the line between the middles of its ends, at " +
-           message_text(ends[0][0]) + ", " + message_text(ends[0][1]) + " and at " +
-           message_text(ends[1][0]) + ", " + message_text(ends[1][1]) +
-           ": if it should not, the parts must end elsewhere, or the key 'direction' must be "
-           "there");
-   }
-   return apart.normalized();
-}
 
 /// Notes the guided parts of bodies, for pictures.
 void note_guides(OwnBodies &own, const JointCase &joint)
@@ -106,14 +78,14 @@ OwnBodies make_own_bodies(const JointCase &joint)
    }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
-      std::array<Eigen::Vector2d, 2> ends;
+      std::array<Eigen::Vector3d, 2> ends{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
       for (int k : {0, 1})
       {
          if (bolt.ends[k].body < 0) { continue; } // the ground
          const OwnPart &part = parts[bolt.ends[k].body];
-         ends[k] = part.named([&] { return part.middle(bolt.ends[k]); });
+         ends[k] << part.named([&] { return part.middle(bolt.ends[k]); }), 0;
       }
-      const Eigen::Vector2d along = direction_of(joint, bolt, ends);
+      const Eigen::Vector2d along = bolt_direction(joint, bolt, ends).head<2>();
       bool held = true;
       for (int k : {0, 1})
       {
@@ -126,14 +98,7 @@ OwnBodies make_own_bodies(const JointCase &joint)
          part.named([&] { part.pull(bolt.name, bolt.ends[k], pull * along); });
          held = held && part.holds_all_of(bolt.name);
       }
-      if (held)
-      {
-         warn(
-            bolt.source.called("between") + ": all nodes that bolt '" + bolt.name +
-            "' pulls are held along it by supports, guides or prescribed displacements, so it "
-            "does nothing");
-      }
-      if (bolt.ends[1].body >= 0) { warn_of_push(joint, bolt, along, ends); }
+      if (held) { warn_of_bolt_on_supports(bolt); }
    }
    std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
    require_own_meshes(joint, parts);

@@ -1,6 +1,7 @@
 #include "contact/own_interfaces.hpp"
 
 #include "common/text.hpp"
+#include "contact/own_bolts.hpp"
 #include "contact/own_half_plane.hpp"
 
 #include <algorithm>
@@ -271,21 +272,8 @@ void complete(OwnBodies &own, const JointCase &joint,
          throw InputError(face->source.called("strength") + ": " + error.what());
       }
    }
-   // A bolt that is tightened to a force becomes a spring only after that.
-   std::vector<Bolt> tightened;
-   for (const JointCase::Bolt &bolt : joint.bolts)
-   {
-      const Bolt one{bolt.name, bolt.stiffness / (bolt.force * bolt.force)};
-      if (bolt.tightened) { tightened.push_back(one); }
-      else { reduction.add_shank(one.load, one.stiffness); }
-   }
-   if (tightened.empty()) { move_obstacles(reduction, joint); }
-   else
-   {
-      own.bolted.emplace(reduction, std::move(tightened),
-                         [&joint](Reduction &made) { move_obstacles(made, joint); });
-      reduction = own.bolted->tightened();
-   }
+   add_bolts(reduction, own.bolted, joint,
+             [&joint](Reduction &made) { move_obstacles(made, joint); });
 }
 
 } // namespace miniapp

@@ -12,29 +12,6 @@ namespace miniapp
 
 using namespace cattaneo;
 
-void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
-                  const Eigen::Vector2d &along, const std::array<Eigen::Vector2d, 2> &ends)
-{
-   const Eigen::Vector2d apart = ends[0] - ends[1];
-   if (along.dot(apart) < -1e-6 * apart.norm())
-   {
-      const std::string &from = joint.bodies[bolt.ends[0].body].name,
-                        &to = joint.bodies[bolt.ends[1].body].name;
-      warn(bolt.source.called("direction") + " points from " + from + " to " + to +
-           ", must point from " + to + " to " + from + ": the shank would push them apart");
-   }
-   const double off = std::abs(along[0] * apart[1] - along[1] * apart[0]);
-   if (off > 0.05 * apart.norm())
-   {
-      warn(bolt.source.called("direction"), " is (", along[0], ", ", along[1],
-           "), and the middles of its ends lie at (", ends[0][0], ", ", ends[0][1], ") and (",
-           ends[1][0], ", ", ends[1][1], "): its two forces pass each ",
-           "other at a distance of ", off,
-           " and turn the bodies. A shank must lie along its direction, from one middle to the "
-           "other");
-   }
-}
-
 void warn_of_accuracy(double accuracy)
 {
    if (accuracy <= 1e-6) { return; }

@@ -11,11 +11,6 @@
 namespace miniapp
 {
 
-/// Warns of a shank that pushes its ends apart, most likely because its direction is reversed,
-/// and of one whose forces turn the bodies because the line between the given middles of its
-/// ends is not along its direction.
-void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
-                  const Eigen::Vector2d &along, const std::array<Eigen::Vector2d, 2> &ends);
 /// Warns of bodies that overlap by more than the length of line that belongs to a node.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);

@@ -47,14 +47,14 @@ struct Sum
 class Forces
 {
 public:
-   Forces(OwnBodies &own, const JointReport &report, const JointCase &joint, int body,
+   Forces(OwnBodies &own, const BoltsReport &bolts, const JointCase &joint, int body,
           const ContactState &state)
       : own_(own), reduction_(own.scene.reduction), held_(own.held[body]), body_(body),
         plane_(joint.formulation == Formulation::plane), thickness_(joint.thickness_of(body)),
         state_(state), loads_(state.multipliers)
    {
       // For a bolt its force, not its pretension.
-      const std::vector<double> shanks = report.shanks(state);
+      const std::vector<double> shanks = bolts.shanks(state);
       for (std::size_t k = 0; k < shanks.size(); ++k)
       {
          loads_[reduction_.problem.pattern(joint.bolts[k].name)] =
@@ -288,7 +288,7 @@ private:
 } // namespace
 
 void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
-                      const JointReport &report, const ContactState &state)
+                      const BoltsReport &bolts, const ContactState &state)
 {
    const bool plane = joint.formulation == Formulation::plane;
    const Units &u = study.units;
@@ -306,7 +306,7 @@ void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
    std::vector<std::pair<std::string, double>> balances;
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
-      const Forces forces(own, report, joint, static_cast<int>(b), state);
+      const Forces forces(own, bolts, joint, static_cast<int>(b), state);
       const std::string &name = own.scene.reduction.bodies[b].name;
       const auto add = [&](const std::string &kind, const std::string &called, const Sum &sum,
                            double torque = 0)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/joint_report.hpp"
+#include "contact/bolts_report.hpp"
 #include "contact/own_bodies.hpp"
 
 namespace miniapp
@@ -13,6 +13,6 @@ namespace miniapp
     balance adds these, the loads, and the resultants of the interfaces at the points where they
     act. None of it is zero by construction. */
 void report_reactions(Study &study, const JointCase &joint, OwnBodies &own,
-                      const JointReport &report, const cattaneo::ContactState &state);
+                      const BoltsReport &bolts, const cattaneo::ContactState &state);
 
 } // namespace miniapp

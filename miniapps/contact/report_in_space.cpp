@@ -6,6 +6,7 @@
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/readout/areas.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 namespace miniapp
@@ -24,6 +25,10 @@ ReportInSpace::ReportInSpace(Study &study, const JointCase &joint, BodiesInSpace
    : study_(study), joint_(joint), own_(own), reduction_(own.scene.reduction),
      courses_(reduction_.interfaces.size())
 {
+   for (const InterfaceReport &face : reduction_.interfaces)
+   {
+      maps_.push_back(face.tied ? Map() : map_of(face));
+   }
 }
 
 std::string ReportInSpace::first_body(const InterfaceReport &face) const
@@ -110,11 +115,12 @@ std::string ReportInSpace::of_state(const ContactState &state)
           text(" (%g, %g, %g)", force[0], force[1], force[2]) + study_.units.total(0);
 }
 
-void ReportInSpace::report(const ContactState &state, const MarchReport &march)
+void ReportInSpace::report(const ContactState &state, const MarchReport &march,
+                           const BoltsReport &bolts)
 {
    report_interfaces(state, march);
    report_cycles(march);
-   report_reactions(state);
+   report_reactions(state, bolts);
    draw_loops();
    draw_maps(state);
 }
@@ -181,8 +187,16 @@ void ReportInSpace::report_cycles(const MarchReport &march)
 
 /// Forces of supports and prescribed displacements on each body are K u less its loads and the
 /// contact forces on its nodes. With the loads and the contact they are in balance.
-void ReportInSpace::report_reactions(const ContactState &state)
+void ReportInSpace::report_reactions(const ContactState &state, const BoltsReport &bolts)
 {
+   // For a bolt its force, not its pretension.
+   VectorXd factors = state.multipliers;
+   const std::vector<double> shanks = bolts.shanks(state);
+   for (std::size_t k = 0; k < shanks.size(); ++k)
+   {
+      const JointCase::Bolt &bolt = joint_.bolts[k];
+      factors[reduction_.problem.pattern(bolt.name)] = shanks[k] / bolt.force;
+   }
    const Units &u = study_.units;
    ResultTable &table = study_.table("reactions", {{"body", "forces on"},
                                                    {"kind", "by"},
@@ -232,7 +246,7 @@ void ReportInSpace::report_reactions(const ContactState &state)
       for (const BodyLoad &load : body.patterns())
       {
          if (load.control != Control::force) { continue; }
-         const double factor = state.multipliers[reduction.problem.pattern(load.name)];
+         const double factor = factors[reduction.problem.pattern(load.name)];
          rest -= factor * load.values;
          for (int dof = 0; dof < body.dofs(); ++dof)
          {
@@ -272,18 +286,20 @@ void ReportInSpace::report_reactions(const ContactState &state)
       text("\nEach body is in balance to %.1e of the largest force on a node of it", worst));
 }
 
-namespace
-{
-
-/// A direction in words: x, y or z, or its components.
 std::string direction_name(const Vector3d &way)
 {
    for (int c = 0; c < 3; ++c)
    {
-      if (std::abs(std::abs(way[c]) - 1) < 1e-9) { return {"xyz"[c]}; }
+      if (std::abs(std::abs(way[c]) - 1) < 1e-9)
+      {
+         return std::string(way[c] < 0 ? "-" : "") + "xyz"[c];
+      }
    }
    return text("(%.3g, %.3g, %.3g)", way[0], way[1], way[2]);
 }
+
+namespace
+{
 
 /// The direction or its opposite, whose largest component is positive.
 Vector3d upright(const Vector3d &way)
@@ -328,6 +344,12 @@ void ReportInSpace::draw_loops()
 namespace
 {
 
+/// Five digits are enough for a picture.
+double few_digits(double x)
+{
+   return std::strtod(text("%.5g", x).c_str(), nullptr);
+}
+
 /// Triangles of a face, by positions of its nodes.
 std::vector<std::array<int, 3>> triangles_of(std::size_t nodes)
 {
@@ -348,43 +370,124 @@ std::vector<std::array<int, 3>> triangles_of(std::size_t nodes)
 
 } // namespace
 
+ReportInSpace::Map ReportInSpace::map_of(const InterfaceReport &face) const
+{
+   Map made;
+   // The position of each node of the body in the interface.
+   const int owner = face.bodies[0];
+   std::map<int, Index> row_of;
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      row_of[reduction_.problem.dofs(face.first + i, 3 * owner)] = i;
+   }
+   const ContactSurface &surface = reduction_.bodies[owner].surface;
+   for (const std::vector<Index> &nodes : surface.faces)
+   {
+      std::vector<Index> rows;
+      for (const Index node : nodes)
+      {
+         const auto found = row_of.find(surface.nodes[node].dofs[0]);
+         if (found != row_of.end()) { rows.push_back(found->second); }
+      }
+      if (rows.size() != nodes.size()) { continue; }
+      for (const auto &[a, b, c] : triangles_of(rows.size()))
+      {
+         made.triangles.push_back({rows[a], rows[b], rows[c]});
+      }
+   }
+   // Axes in the surface, along the axes of space where these lie in it.
+   const Vector3d normal = (face.frames.rightCols(3).transpose() * face.weights).normalized();
+   const Matrix3d frame = frame_of(normal);
+   made.across = upright(frame.row(0));
+   made.up = upright(frame.row(1));
+   return made;
+}
+
+ordered_json ReportInSpace::maps() const
+{
+   ordered_json all = ordered_json::array();
+   for (std::size_t k = 0; k < maps_.size(); ++k)
+   {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      const Map &map = maps_[k];
+      if (face.tied) { continue; }
+      ordered_json x = ordered_json::array(), y = x, areas = x, triangles = x;
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         const Vector2d at = map.flat(face.places.row(i));
+         x.push_back(few_digits(at[0]));
+         y.push_back(few_digits(at[1]));
+         areas.push_back(few_digits(face.weights[i]));
+      }
+      for (const auto &[a, b, c] : map.triangles) { triangles.push_back({a, b, c}); }
+      all.push_back({{"name", face.name},
+                     {"first", face.first},
+                     {"end", face.first + face.nodes},
+                     {"on", first_body(face)},
+                     {"x", x},
+                     {"y", y},
+                     {"areas", areas},
+                     {"triangles", triangles},
+                     {"x_label", direction_name(map.across) + study_.units.of(0, 1)},
+                     {"y_label", direction_name(map.up) + study_.units.of(0, 1)}});
+   }
+   return all;
+}
+
+ordered_json ReportInSpace::fields(const ContactState &state) const
+{
+   const ReducedProblem &problem = reduction_.problem;
+   const Index n = problem.nodes();
+   const VectorXd p = tractions(problem, state.p),
+                  q = state.q.size() > 0 ? tractions(problem, state.q)
+                                         : VectorXd(VectorXd::Zero(2 * n)),
+                  v = state.v.size() > 0 ? state.v : VectorXd(VectorXd::Zero(2 * n));
+   const std::vector<NodeState> states = settled_states(problem, state);
+   // Pressures, and two components each of shear and slip.
+   std::array<std::vector<double>, 5> values;
+   for (std::vector<double> &one : values) { one.assign(n, 0); }
+   std::string letters(n, 'o');
+   for (std::size_t k = 0; k < maps_.size(); ++k)
+   {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      const Map &map = maps_[k];
+      if (face.tied) { continue; }
+      const MatrixX3d shear = tangential(face, q), slip = tangential(face, v);
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         const Index node = face.first + i;
+         if (!closed(states[node])) { continue; }
+         letters[node] = slips(states[node]) ? 's' : 'k';
+         const Vector2d t = map.flat(shear.row(i)), s = map.flat(slip.row(i));
+         values[0][node] = p[node];
+         values[1][node] = t[0];
+         values[2][node] = t[1];
+         values[3][node] = s[0];
+         values[4][node] = s[1];
+      }
+   }
+   ordered_json made = {{"state", letters}};
+   const std::array<const char *, 5> names = {"p", "qx", "qy", "sx", "sy"};
+   for (std::size_t k = 0; k < names.size(); ++k)
+   {
+      ordered_json list = ordered_json::array();
+      for (const double x : values[k]) { list.push_back(few_digits(x)); }
+      made[names[k]] = list;
+   }
+   return made;
+}
+
 void ReportInSpace::draw_maps(const ContactState &state)
 {
    const ReducedProblem &problem = reduction_.problem;
    const std::vector<NodeState> states = settled_states(problem, state);
    const VectorXd p = tractions(problem, state.p);
-   for (const InterfaceReport &face : reduction_.interfaces)
+   for (std::size_t k = 0; k < maps_.size(); ++k)
    {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      const Map &map = maps_[k];
       if (face.tied) { continue; }
-      // The position of each node of the body in the interface.
-      const int owner = face.bodies[0];
-      std::map<int, Index> row_of;
-      for (Index i = 0; i < face.nodes; ++i)
-      {
-         row_of[problem.dofs(face.first + i, 3 * owner)] = i;
-      }
-      const ContactSurface &surface = reduction_.bodies[owner].surface;
-      std::vector<std::array<Index, 3>> triangles;
-      for (const std::vector<Index> &nodes : surface.faces)
-      {
-         std::vector<Index> rows;
-         for (const Index node : nodes)
-         {
-            const auto found = row_of.find(surface.nodes[node].dofs[0]);
-            if (found != row_of.end()) { rows.push_back(found->second); }
-         }
-         if (rows.size() != nodes.size()) { continue; }
-         for (const auto &[a, b, c] : triangles_of(rows.size()))
-         {
-            triangles.push_back({rows[a], rows[b], rows[c]});
-         }
-      }
-      // Axes in the surface, along the axes of space where these lie in it.
-      const Vector3d normal =
-         (face.frames.rightCols(3).transpose() * face.weights).normalized();
-      const Matrix3d frame = frame_of(normal);
-      const Vector3d across = upright(frame.row(0)), up = upright(frame.row(1));
-      const auto flat = [&](const Vector3d &x) { return Vector2d(across.dot(x), up.dot(x)); };
+      const auto flat = [&](const Vector3d &x) { return map.flat(x); };
       // The part in contact is shown, with a margin.
       Eigen::AlignedBox2d shown, whole;
       for (Index i = 0; i < face.nodes; ++i)
@@ -401,8 +504,9 @@ void ReportInSpace::draw_maps(const ContactState &state)
       const auto panel = [&](const std::string &name, const std::string &title) -> Panel &
       {
          const std::string unit = study_.units.of(0, 1);
-         Panel &made = study_.panel(Panel::Kind::map, name + end, title + several,
-                                    direction_name(across) + unit, direction_name(up) + unit);
+         Panel &made =
+            study_.panel(Panel::Kind::map, name + end, title + several,
+                         direction_name(map.across) + unit, direction_name(map.up) + unit);
          for (const int c : {0, 1})
          {
             made.limit(c ? "y" : "x", shown.min()[c], shown.max()[c]);
@@ -411,7 +515,7 @@ void ReportInSpace::draw_maps(const ContactState &state)
       };
       const auto draw = [&](Panel &into, const VectorXd &values, const MatrixX3d *arrows)
       {
-         for (const auto &triangle : triangles)
+         for (const auto &triangle : map.triangles)
          {
             Eigen::AlignedBox2d around;
             for (const Index i : triangle) { around.extend(flat(face.places.row(i))); }

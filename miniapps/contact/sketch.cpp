@@ -3,6 +3,7 @@
 #include "common/miniapp.hpp"
 #include "common/text.hpp"
 
+#include <array>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -42,35 +43,74 @@ Sketch::Sketch(Study &study, Scene &scene) : study_(study), scene_(scene)
    if (!wanted_) { return; }
    int elements = 0;
    for (const auto &mesh : scene.meshes) { elements += mesh->GetNE(); }
-   filled_ = elements <= most_elements;
+   filled_ = elements <= most_elements || scene.meshes[0]->Dimension() == 3;
    ordered_json bodies = ordered_json::array();
-   for (std::size_t k = 0; k < scene.meshes.size(); ++k)
-   {
-      const mfem::Mesh &mesh = *scene.meshes[k];
-      ordered_json x = ordered_json::array(), y = x, cells = x, edges = x;
-      for (int v = 0; v < mesh.GetNV(); ++v)
-      {
-         x.push_back(rounded_to_look_at(mesh.GetVertex(v)[0]));
-         y.push_back(rounded_to_look_at(mesh.GetVertex(v)[1]));
-      }
-      mfem::Array<int> vertices;
-      for (int e = 0; filled_ && e < mesh.GetNE(); ++e)
-      {
-         mesh.GetElementVertices(e, vertices);
-         cells.push_back(vertices_of(vertices));
-      }
-      for (int e = 0; e < mesh.GetNBE(); ++e)
-      {
-         mesh.GetBdrElementVertices(e, vertices);
-         edges.push_back(vertices_of(vertices));
-      }
-      bodies.push_back({{"name", scene.reduction.bodies[k].name},
-                        {"x", x},
-                        {"y", y},
-                        {"elements", cells},
-                        {"edges", edges}});
-   }
+   for (std::size_t k = 0; k < scene.meshes.size(); ++k) { bodies.push_back(body(k)); }
    study.sketch = {{"bodies", bodies}, {"frames", ordered_json::array()}};
+}
+
+/// What does not change with the increments.
+ordered_json Sketch::body(std::size_t k)
+{
+   mfem::Mesh &mesh = *scene_.meshes[k];
+   const bool in_space = mesh.Dimension() == 3;
+   Drawn drawn;
+   ordered_json cells = ordered_json::array(), edges = cells;
+   mfem::Array<int> vertices;
+   std::vector<int> number(mesh.GetNV(), in_space ? -1 : 0); // of a vertex among the drawn ones
+   for (int v = 0; v < mesh.GetNV() && !in_space; ++v)
+   {
+      number[v] = v;
+      drawn.vertices.push_back(v);
+   }
+   const auto add_cell = [&](int element)
+   {
+      ordered_json cell = ordered_json::array();
+      for (const int v : vertices)
+      {
+         if (number[v] < 0)
+         {
+            number[v] = static_cast<int>(drawn.vertices.size());
+            drawn.vertices.push_back(v);
+         }
+         cell.push_back(number[v]);
+      }
+      cells.push_back(cell);
+      drawn.elements.push_back(element);
+   };
+   for (int f = 0; in_space && f < mesh.GetNumFaces(); ++f)
+   {
+      int element = -1, other = -1;
+      mesh.GetFaceElements(f, &element, &other);
+      if (other >= 0) { continue; } // within the body
+      mesh.GetFaceVertices(f, vertices);
+      add_cell(element);
+   }
+   for (int e = 0; !in_space && filled_ && e < mesh.GetNE(); ++e)
+   {
+      mesh.GetElementVertices(e, vertices);
+      add_cell(e);
+   }
+   for (int e = 0; !in_space && e < mesh.GetNBE(); ++e)
+   {
+      mesh.GetBdrElementVertices(e, vertices);
+      edges.push_back(vertices_of(vertices));
+   }
+   ordered_json made = {{"name", scene_.reduction.bodies[k].name}};
+   const std::array<const char *, 3> axes = {"x", "y", "z"};
+   for (int c = 0; c < mesh.Dimension(); ++c)
+   {
+      ordered_json places = ordered_json::array();
+      for (const int v : drawn.vertices)
+      {
+         places.push_back(rounded_to_look_at(mesh.GetVertex(v)[c]));
+      }
+      made[axes[c]] = places;
+   }
+   made["elements"] = cells;
+   made["edges"] = edges;
+   drawn_.push_back(std::move(drawn));
+   return made;
 }
 
 void Sketch::note(const ContactState &reached)
@@ -79,7 +119,9 @@ void Sketch::note(const ContactState &reached)
    if (!wanted_ || (last_ && last_->state.time == reached.time)) { return; }
    last_ = Kept{rows_, reached};
    if (rows_++ % stride_ == 0) { kept_.push_back(*last_); }
-   if (kept_.size() <= most_states) { return; }
+   // A state in space has more numbers.
+   const bool in_space = scene_.meshes[0]->Dimension() == 3;
+   if (kept_.size() <= (in_space ? most_states / 2 : most_states)) { return; }
    std::vector<Kept> half;
    for (std::size_t k = 0; k < kept_.size(); k += 2) { half.push_back(std::move(kept_[k])); }
    kept_ = std::move(half);
@@ -88,39 +130,47 @@ void Sketch::note(const ContactState &reached)
 
 ordered_json Sketch::frame(const ContactState &state, std::size_t row)
 {
-   ordered_json u = ordered_json::array(), v = u, stresses = u;
+   // Components of the displacements, u, v and in space w.
+   std::array<ordered_json, 3> moved;
+   moved.fill(ordered_json::array());
+   ordered_json stresses = ordered_json::array();
+   const NamedLoads loads = named(scene_.problem(), state.multipliers);
+   const int dimension = scene_.meshes[0]->Dimension();
    for (std::size_t k = 0; k < scene_.bodies.size(); ++k)
    {
       const ElasticBody &body = *scene_.bodies[k];
-      const VectorXd moved = scene_.reduction.displacement(static_cast<int>(k), state.v,
-                                                           state.w, state.multipliers);
-      const NamedLoads loads = named(scene_.problem(), state.multipliers);
+      const VectorXd u = scene_.reduction.displacement(static_cast<int>(k), state.v, state.w,
+                                                       state.multipliers);
       mfem::GridFunction field(&body.space());
-      mfem::Vector dofs(moved.size());
-      std::copy(moved.begin(), moved.end(), dofs.begin());
+      mfem::Vector dofs(u.size());
+      std::copy(u.begin(), u.end(), dofs.begin());
       field.SetFromTrueDofs(dofs);
       mfem::Mesh &mesh = *scene_.meshes[k];
-      ordered_json of_body[2] = {ordered_json::array(), ordered_json::array()},
-                   of_elements = ordered_json::array();
-      for (const int c : {0, 1})
+      for (int c = 0; c < dimension; ++c)
       {
          mfem::Vector at_vertices;
          field.GetNodalValues(at_vertices, c + 1);
-         for (const double x : at_vertices) { of_body[c].push_back(rounded_to_look_at(x)); }
+         ordered_json of_body = ordered_json::array();
+         for (const int v : drawn_[k].vertices)
+         {
+            of_body.push_back(rounded_to_look_at(at_vertices[v]));
+         }
+         moved[c].push_back(of_body);
       }
+      ordered_json of_elements = ordered_json::array();
       mfem::IsoparametricTransformation at;
-      for (int e = 0; filled_ && e < mesh.GetNE(); ++e)
+      for (const int e : drawn_[k].elements)
       {
          mesh.GetElementTransformation(e, &at);
          at.SetIntPoint(&mfem::Geometries.GetCenter(mesh.GetElementBaseGeometry(e)));
          of_elements.push_back(
             rounded_to_look_at(stress_at(body, field, at, loads).von_mises()));
       }
-      u.push_back(of_body[0]);
-      v.push_back(of_body[1]);
       stresses.push_back(of_elements);
    }
-   return {{"row", row}, {"u", u}, {"v", v}, {"mises", stresses}};
+   ordered_json made = {{"row", row}, {"u", moved[0]}, {"v", moved[1]}, {"mises", stresses}};
+   if (dimension == 3) { made["w"] = moved[2]; }
+   return made;
 }
 
 void Sketch::report()

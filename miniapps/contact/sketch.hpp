@@ -12,8 +12,8 @@ namespace miniapp
 
 /** The bodies of a march, deformed, for the page (--html): their vertices and elements, and at
     some increments the displacements of the vertices and von Mises' stress in the middle of
-    each element. Of bodies with many elements only the boundary is drawn. There is no sketch on
-    several ranks. */
+    each element. Of bodies with many elements only the boundary is drawn, of bodies in space
+    the outer faces. There is no sketch on several ranks. */
 class Sketch
 {
 public:
@@ -26,8 +26,16 @@ public:
 
 private:
    nlohmann::ordered_json frame(const cattaneo::ContactState &state, std::size_t row);
+   /// The vertices of a body that are drawn, and the element of each cell that is filled: of
+   /// each element, in space of each outer face.
+   struct Drawn
+   {
+      std::vector<int> vertices, elements;
+   };
+   nlohmann::ordered_json body(std::size_t k);
    Study &study_;
    Scene &scene_;
+   std::vector<Drawn> drawn_; ///< of each body
    bool wanted_ = false, filled_ = false;
    struct Kept
    {

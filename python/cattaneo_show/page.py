@@ -32,6 +32,7 @@ def page(run, file, figure=True):
 
 # What the slider shows already, increment by increment.
 SLIDER_HAS = ("zones_in_time", "tractions", "loops")
+MAPS_HAVE = ("pressure", "shear", "slip")
 
 
 def svg(run):
@@ -39,7 +40,8 @@ def svg(run):
     from .drawing import drawn_panels, save, sheet
 
     slider = bool(run["shown"]["marches"])
-    names = [name for name in panel_names(run) if not (slider and run["shown"]["study"] in ("contact", "march") and name.startswith(SLIDER_HAS))]
+    has = SLIDER_HAS + (MAPS_HAVE if any(march.get("maps") for march in run["shown"]["marches"]) else ())
+    names = [name for name in panel_names(run) if not (slider and run["shown"]["study"] in ("contact", "march") and name.startswith(has))]
     pieces = []
     for k, one in enumerate(drawn_panels(run, names)):
         drawn = io.StringIO()

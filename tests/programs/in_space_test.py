@@ -119,6 +119,87 @@ def test_an_extruded_problem_is_the_plane_one(run):
         near_all([row["imbalance"] for row in space["balance"]], 0, 1e-10)
 
 
+def test_bolted_laps_are_the_plane_ones(run):
+    """Two laps, pulled together by a bolt and sheared to and fro: in plane strain, and between walls as a slice of hexahedra.
+    The bolt pulls on all of the lap, so that nothing opens."""
+    thick, ends = 0.7, ["upper:3[0<x<3]", "lower:1[0<x<3]"]
+    march = {"history": ["Q=0", "bolt=1", "Q=0.1", "Q=-0.1", "Q=0.1"], "cycle-start": 2, "cycles": 1, "stepping": "fixed", "increments": 10, "order": 1}
+    run.write("upper.mesh", rectangle(even(0, 4, 8), even(0, 1, 2), lambda x, y: (x, y)))
+    run.write("lower.mesh", rectangle(even(-1, 3, 8), even(-1, 0, 2), lambda x, y: (x, y)))
+    plane = run.case({"thickness": thick,
+                      "bodies": {"upper": {"mesh": str(run.folder / "upper.mesh"), "young": 2, "poisson": 0.3, "support": "2:y", "load": "Q traction 2 1 0"},
+                                 "lower": {"mesh": str(run.folder / "lower.mesh"), "young": 5, "poisson": 0.2, "support": "4:xy"}},
+                      "interfaces": {"face": {"between": ["upper:1[0<x<3]", "lower:3[0<x<3]"], "friction": 0.15}},
+                      "bolts": {"bolt": {"between": ends, "stiffness": 0.8, "preload": 1.5}}, **march})
+
+    def slab(x0, x1, y0, y1):
+        return brick(([x0, x1], 8), ([y0, y1], 2), ([0, thick], 1))
+    keys = {"analysis": "space", **march,
+            "bodies": {"upper": {"block": slab(0, 4, 0, 1), "young": 2, "poisson": 0.3, "support": "right:y bottom:z top:z", "load": "Q traction right 1 0 0"},
+                       "lower": {"block": slab(-1, 3, -1, 0), "young": 5, "poisson": 0.2, "support": "left:xyz bottom:z top:z"}},
+            "interfaces": {"face": {"between": ["upper:front[0<x<3]", "lower:back[0<x<3]"], "friction": 0.15}},
+            "bolts": {"bolt": {"between": ["upper:back[0<x<3]", "lower:front[0<x<3]"], "stiffness": 0.8, "preload": 1.5}}}
+    space = run.case(keys, "--save-state", run.folder / "whole")
+    one, other = plane.interface("face"), space.interface("face")
+    assert one["separation"] == 0 and other["separation"] == 0 and other["slip"] > 0
+    for key in ("normal", "force_x", "force_y"):
+        near(other[key], one[key], 1e-10)
+    for key in ("tightened_to", "all_tightened", "force", "least", "most"):
+        near(space["bolts"][0][key], plane["bolts"][0][key], 1e-10)
+    near(space["bolts"][0]["all_tightened"], 1.5, 1e-10)
+    assert space["bolts"][0]["least"] < space["bolts"][0]["most"]
+    # The displacement of the load is that of the end, and its force is the whole force.
+    sizes = {row["load"]: row for row in space["load_sizes"]}
+    near(sizes["Q"]["size"], thick, 1e-12)
+    assert sizes["Q"]["displacement"] == "displacement of upper:right along x" and sizes["bolt"]["kind"] == "bolt"
+    near_all([row["imbalance"] for row in space["balance"]], 0, 1e-10)
+    # A march goes on from a state in which the bolt is tight.
+    run.case({**keys, "history": ["Q=0", "bolt=1"], "cycle-start": -1}, "--save-state", run.folder / "part")
+    rest = run.case(keys, "--load-state", run.folder / "part")
+    near_relative(rest["bolts"][0]["least"], space["bolts"][0]["least"], 1e-12)
+
+
+def test_obstacles_with_one_surface_are_alike(run):
+    """A cylinder in three ways: as such, as a height, and as the plane problem's circle. And a large sphere as a height."""
+    radius, march = 8, {"history": ["P=0", "P=0.05", "Q=0.01"], "order": 1, "stepping": "fixed", "increments": 4}
+    made = block("P pressure top 1; Q traction top 1 0 0", block=brick(([-1, 1], 8), ([0, 0.5], 1), ([0, 1], 4)), support="front:y back:y")
+    made.update(march)
+    shapes = {"cylinder": {"cylinder": {"point": [0, 3, -radius], "axis": [0, -2, 0], "radius": radius}},
+              "height": {"height": f"sqrt({radius}^2-x^2)-{radius}"},
+              "sphere": {"sphere": {"centre": [0, 0.2, -radius], "radius": radius}},
+              "dome": {"height": f"sqrt({radius}^2-x^2-(y-0.2)^2)-{radius}"}}
+    found = {name: run.case(with_(made, shape, *FLOOR, "obstacle")) for name, shape in shapes.items()}
+    for one, other in (("cylinder", "height"), ("sphere", "dome")):
+        near_relative(found[other]["peak_pressure"], found[one]["peak_pressure"], 1e-8)
+        near_relative(found[other].interface("floor")["normal"], 0.05, 1e-12)
+    assert found["cylinder"].interface("floor")["separation"] > 0
+    run.write("block.mesh", rectangle(even(-1, 1, 8), even(0, 1, 4), lambda x, y: (x, y)))
+    plane = run.case({"bodies": {"block": {"mesh": str(run.folder / "block.mesh"), "young": 1, "poisson": 0.3, "load": "P pressure 3 1; Q traction 3 1 0"}},
+                      "interfaces": {"floor": {"between": "block:1", "friction": 0.3, "obstacle": {"circle": {"centre": [0, -radius], "radius": radius}}}}, **march})
+    near_relative(found["cylinder"]["peak_pressure"], plane["peak_pressure"], 1e-6)
+
+
+def test_a_bolt_to_the_ground_is_a_spring(run):
+    """Two blocks, ν = 0, in uniform stress: in series they have the stiffness E A / H. Beside them the shank pulls the upper one
+    down, and takes its share of a force F that lifts it."""
+    area, height, shank, preload, lift = 2, 2, 0.3, 0.05, 0.01
+    clamped = area / height
+
+    def one(low, **keys):
+        return {"block": brick(([0, 2], 2), ([0, 1], 2), ([low, low + 1], 2)), "young": 1, "poisson": 0, **keys}
+    for key, tight in (("preload", preload), ("pretension", preload / (1 + shank / clamped))):
+        got = run.case({"analysis": "space", "order": 1, "history": ["F=0", "bolt=1", "F=1"],
+                        "bodies": {"upper": one(1, load=f"F traction top 0 0 {lift / area}"), "lower": one(0, support="bottom:xyz")},
+                        "interfaces": {"face": {"between": ["upper:bottom", "lower:top"], "friction": 0.2}},
+                        "bolts": {"bolt": {"between": "upper:top", "direction": [0, 0, 1], "stiffness": shank, key: preload}}})
+        row = got["bolts"][0]
+        near(row["all_tightened"], tight, 1e-12)
+        near(row["force"], tight + lift * shank / (shank + clamped), 1e-12)
+        near(got.interface("face")["normal"], row["force"] - lift, 1e-12)
+        near(next(r for r in got["reactions"] if r["body"] == "lower")["force_z"], row["force"] - lift, 1e-12)
+        near_all([r["imbalance"] for r in got["balance"]], 0, 1e-10)
+
+
 def hertz(run, cells):
     """A quarter of the shipped case without friction, with so many cells across the contact: peak pressure, radius, its error."""
     case = shipped("sphere_on_block")
@@ -261,6 +342,9 @@ BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
     ("P displacement-r top 1", (*BODY, "load"), ["displacement-r", "displacement-z"]),
     ("P pressure top[0<x<0.7] 1", (*BODY, "load"), ["cuts a face", "must end where faces end"]),
     ({"line": [[0, 0], [1, 0]]}, (*FLOOR, "obstacle"), ["unknown key 'line'", "plane"]),
+    ({"cylinder": {"point": [0, 0, -1], "axis": [0, 0, 0], "radius": 1}}, (*FLOOR, "obstacle"), ["cylinder.axis", "must have a length"]),
+    ({"cylinder": {"point": [0, 0, -1], "axis": [0, 1, 0], "radius": 0}}, (*FLOOR, "obstacle"), ["cylinder.radius", "must be positive"]),
+    ({"height": "x+z"}, (*FLOOR, "obstacle"), ["obstacle.height", "z"]),
     ({"sphere": {"centre": [0, 0, -1], "radius": 0}}, (*FLOOR, "obstacle"), ["radius", "must be positive"]),
     ({"plane": {"point": [0, 0, 0.5], "normal": [0, 0, 1]}}, (*FLOOR, "obstacle"), ["overlap by 0.5", "obstacle"]),
     ([[1, 0.3]], (*FLOOR, "strength"), ["strength", "not for bodies in space"]),
@@ -271,7 +355,11 @@ BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
     ({"D": {"angle": 1}}, (*FLOOR, "motion"), ["angle", "not for bodies in space"]),
     ({"z": {"force": "F"}, "rotation": "free"}, (*FLOOR, "guide"), ["rotation", "not for bodies in space"]),
     ({"tip": [0, 0]}, ("points",), ["points", "not for bodies in space"]),
-    ({"b": {}}, ("bolts",), ["bolts", "not for bodies in space"]),
+    ({"b": {"between": "block:top", "stiffness": 1, "preload": 1}}, ("bolts",), ["b", "bolted to the ground", "direction"]),
+    ({"b": {"between": "block:top", "stiffness": 1, "preload": 1, "direction": [0, 1]}}, ("bolts",), ["direction", "three numbers"]),
+    ({"b": {"between": "block:top", "stiffness": 1, "preload": 1, "direction": [0, 0, 0]}}, ("bolts",), ["direction is (0, 0, 0)", "must have a length"]),
+    ({"b": {"between": "block:lid", "stiffness": 1, "preload": 1, "direction": [0, 0, 1]}}, ("bolts",), ["bolts.b.between", "lid", "top"]),
+    ({"P": {"between": "block:top", "stiffness": 1, "preload": 1, "direction": [0, 0, 1]}}, ("bolts",), ["load 'P'", "name of a bolt"]),
     (2, ("thickness",), ["thickness", "not for bodies in space"]),
     (5, ("order",), ["order", "must be 1 or 2"]),
     ([1, 2], ("edges",), ["edges", "leave it out"]),
