@@ -117,6 +117,15 @@ def main():
             assert f"Zones, {name}<" in dom and re.search(rf'id="pressure{f"-{k}" if k else ""}"', dom), name
         assert "<h1 id=\"name\">bolted_joint (contact)</h1>" in dom and ">displacement of upper:end along x [mm]<" in dom and "Displacements are drawn" in dom
         assert {row[3] for row in cells(dom, "zones")} == {"faying", "under_head", "under_nut"}
+        # Contact on a surface has maps, and the areas of its states; bodies in space are drawn.
+        surface, results = folder / "surface.html", folder / "surface.json"
+        subprocess.run([programs / "contact", "--case", "meshes/sphere_on_block.json", "--cycles", "1", "--increments", "4", "--html", surface, "--json", results],
+                       cwd=root, stdout=subprocess.DEVNULL, check=True)
+        dom = shown(browser, surface)
+        assert "Slip of block" in dom and "Drag to turn the bodies" in dom and ">displacement of the obstacle of ball along x [mm]<" in dom
+        areas = {row["state"]: row["area"] for row in json.loads(results.read_text(encoding="utf-8"))["areas"]}
+        (name, *shown_areas), = cells(dom, "zones")
+        assert name == "ball" and all(near(float(a), areas[state], 1e-4) for a, state in zip(shown_areas, ("stick", "slip", "separation"), strict=True)), (shown_areas, areas)
         history, nodes = (list(csv.DictReader(open(folder / f"t_{table}.csv", encoding="utf-8"))) for table in ("history", "nodes"))
         seen = []
         seen.append(check(shown(browser, page), len(history), history, nodes)) # it begins at the end
