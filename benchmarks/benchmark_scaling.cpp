@@ -61,7 +61,7 @@ public:
    }
    /// Exponents against the first column, and the panel of the columns from `first` on that
    /// `shown` names.
-   miniapp::Sheet finish(const char *name, const std::vector<int> &shown) const
+   miniapp::Panel finish(const char *name, const std::vector<int> &shown) const
    {
       miniapp::Panel panel(miniapp::Panel::Kind::lines, name, title_, columns_[0],
                            "seconds (CPU time)");
@@ -73,7 +73,7 @@ public:
       }
       std::printf("\n");
       for (int k : shown) { panel.add(columns_[k], data_[0], data_[k]); }
-      return {name, panel.csv(), panel.json()};
+      return panel;
    }
 
 private:
@@ -229,7 +229,7 @@ int main(int argc, char *argv[])
          args.add(&csv, "csv", "Prefix of the panels' files.", miniapp::Text::prefix);
          args.add(&picture, "plot", "File for the picture.", miniapp::Text::picture);
          args.parse();
-         std::vector<miniapp::Sheet> panels;
+         std::vector<miniapp::Panel> panels;
          const std::vector<const char *> columns = {"dofs", "contact nodes", "assembly s",
                                                     "condensation s", "whole s"};
          {
@@ -281,8 +281,7 @@ int main(int argc, char *argv[])
             }
             panels.push_back(table.finish("cycles", {1, 3}));
          }
-         miniapp::write_csv(panels, csv);
-         miniapp::draw(panels, picture);
+         miniapp::draw(panels, csv, picture);
          return 0;
       });
 }

@@ -223,7 +223,7 @@ void print_buys(const std::vector<Run> &runs, const Problem &problem)
 /// Error of the first quantity against time and dofs; those within the uncertainty (the grey
 /// band) are left out.
 void draw(const Problem &problem, const std::vector<Reference> &reference,
-          const std::vector<Run> &runs, std::vector<miniapp::Sheet> &panels)
+          const std::vector<Run> &runs, std::vector<miniapp::Panel> &panels)
 {
    const Quantity &quantity = problem.quantities[0];
    const double uncertainty = reference[0].uncertainty / scale(reference[0], quantity);
@@ -248,13 +248,13 @@ void draw(const Problem &problem, const std::vector<Reference> &reference,
       }
       panel.limit("y", 0.5 * std::min(least, uncertainty > 0 ? uncertainty : least),
                   std::numeric_limits<double>::quiet_NaN());
-      panels.push_back({panel.name(), panel.csv(), panel.json()});
+      panels.push_back(panel);
    }
 }
 
 /// All meshes of one problem; `orders` of each kind.
 void compare(const Problem &problem, const std::vector<double> &orders, int levels, int samples,
-             std::ostream &table, std::vector<miniapp::Sheet> &panels, int &failed)
+             std::ostream &table, std::vector<miniapp::Panel> &panels, int &failed)
 {
    std::printf("\n%s\n", problem.title);
    const std::vector<Reference> reference = references(problem);
@@ -316,7 +316,7 @@ int main(int argc, char *argv[])
                     "option --problems: there is no problem '", word, "'");
             names.push_back(word);
          }
-         std::vector<miniapp::Sheet> panels;
+         std::vector<miniapp::Panel> panels;
          std::ofstream table;
          if (!csv.empty())
          {
@@ -339,7 +339,7 @@ int main(int argc, char *argv[])
          std::printf("\n%.0f s in all\n", watch.seconds());
          table.close();
          require(csv.empty() || !table.fail(), "file '", csv, "' cannot be written");
-         miniapp::draw(panels, picture);
+         miniapp::draw(panels, "", picture);
          if (failed) { std::printf("%d runs failed\n", failed); }
          return failed ? 2 : 0;
       });

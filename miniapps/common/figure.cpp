@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace miniapp
@@ -79,7 +80,7 @@ const PanelColumns &columns_of(Panel::Kind kind)
    return all[static_cast<std::size_t>(kind)];
 }
 
-/// The digits of a CSV file are enough for a picture.
+/// Nine digits are enough for a picture and a CSV file.
 ordered_json rounded_to_draw(double x)
 {
    if (!std::isfinite(x)) { return nullptr; }
@@ -136,20 +137,6 @@ void Panel::say(const std::string &key, const std::string &word)
    add_word(words_, key, word);
 }
 
-std::string comments(const ordered_json &words)
-{
-   std::string lines;
-   for (const auto &[key, said] : words.items())
-   {
-      const ordered_json all = said.is_array() ? said : ordered_json::array({said});
-      for (const ordered_json &word : all)
-      {
-         lines += "# " + key + ": " + word.get<std::string>() + "\n";
-      }
-   }
-   return lines;
-}
-
 bool Panel::empty() const
 {
    // A panel with values of the thesis only is not drawn.
@@ -157,33 +144,6 @@ bool Panel::empty() const
           (kind_ == Kind::zones &&
            std::all_of(parts_[0]["state"].begin(), parts_[0]["state"].end(),
                        [](const ordered_json &state) { return state == "thesis"; }));
-}
-
-std::string Panel::csv() const
-{
-   if (empty()) { return ""; }
-   const PanelColumns &columns = columns_of(kind_);
-   std::vector<std::string> order(columns.words.begin(), columns.words.end());
-   order.insert(order.end(), columns.numbers.begin(), columns.numbers.end());
-   if (kind_ == Kind::zones) { std::swap(order[0], order[1]); } // time, then state
-   std::string table = comments(words_) + listed(order, ",") + "\n";
-   for (const ordered_json &part : parts_)
-   {
-      const std::size_t rows = part[columns.numbers[0]].size();
-      for (std::size_t i = 0; i < rows; ++i)
-      {
-         for (std::size_t k = 0; k < order.size(); ++k)
-         {
-            const ordered_json &column = part[order[k]];
-            const ordered_json &cell = column.is_array() ? column[i] : column;
-            table += k > 0 ? "," : "";
-            if (cell.is_string()) { table += csv_field(cell.get<std::string>()); }
-            else if (cell.is_number()) { table += text("%.9g", cell.get<double>()); }
-         }
-         table += '\n';
-      }
-   }
-   return table;
 }
 
 ordered_json Panel::json() const
@@ -286,16 +246,6 @@ void Panel::limit(const char *axis, double lo, double hi)
    say(std::string("limits ") + axis, bound(lo) + "," + bound(hi));
 }
 
-void write_csv(const std::vector<Sheet> &sheets, const std::string &prefix)
-{
-   if (prefix.empty() || !writes()) { return; }
-   require(!sheets.empty(), "option --csv: this run has no tables");
-   for (const Sheet &sheet : sheets)
-   {
-      write_whole(prefix + "_" + sheet.name + ".csv", sheet.csv);
-   }
-}
-
 std::string temporary_file(const std::string &name, const std::string &text)
 {
    const std::string folder = fs::temp_directory_path().string();
@@ -307,21 +257,45 @@ std::string temporary_file(const std::string &name, const std::string &text)
    return file;
 }
 
-void show(const std::string &run, bool passing, const std::string &option,
-          const std::string &file)
+void show(const std::string &run, bool passing,
+          const std::vector<std::pair<std::string, std::string>> &wanted)
 {
    if (!writes()) { return; }
-   const std::string command = "python3 " + argument(shipped("python/cattaneo_show")) + " " +
-                               argument(run) + " " + option + " " + argument(file);
+   const std::string reader =
+      "python3 " + argument(shipped("python/cattaneo_show")) + " " + argument(run);
+   const auto command = [&](const auto &files)
+   {
+      std::string words = reader;
+      for (const auto &[option, file] : files) { words += " " + option + " " + argument(file); }
+      return words;
+   };
    std::cout << std::flush;
    // Ctrl-C stops the study. A second one must not leave an incomplete picture.
-   const int code = std::system(
-      ("trap '' INT; command -v python3 >/dev/null && CATTANEO_PROGRAM=1 " + command).c_str());
-   require(code == 0, "option ", option, ": '", file,
-           "' was not made, because it needs Python 3",
-           option == "--plot" ? " with matplotlib (Debian: python3-matplotlib)" : "",
-           "; the run is in '", run, "', and this makes it later: ", command);
-   if (passing) { std::remove(run.c_str()); }
+   const bool python = has_python();
+   const int status =
+      python ? std::system(("trap '' INT; CATTANEO_PROGRAM=1 " + command(wanted)).c_str()) : -1;
+   if (status == 0)
+   {
+      if (passing) { std::remove(run.c_str()); }
+      return;
+   }
+   constexpr int no_matplotlib = 3; // then all but the picture was made
+   const bool but_picture = WIFEXITED(status) && WEXITSTATUS(status) == no_matplotlib;
+   std::vector<std::pair<std::string, std::string>> missing;
+   std::vector<std::string> said;
+   for (const auto &[option, file] : wanted)
+   {
+      if (but_picture && option != "--plot") { continue; }
+      missing.emplace_back(option, file);
+      said.push_back("option " + option + ": '" + file + (option == "--csv" ? "_….csv" : "") +
+                     "' was not made");
+   }
+   require(false, listed(said),
+           !python       ? ", because it needs Python 3 (Debian: python3)"
+           : but_picture ? ", because it needs Python 3 with matplotlib (Debian: "
+                           "python3-matplotlib)"
+                         : "",
+           "; the run is in '", run, "', and this makes it later: ", command(missing));
 }
 
 ordered_json ask_reader(const ordered_json &question)
@@ -356,17 +330,17 @@ void become_reader(const std::vector<std::string> &words)
    execvp("python3", arguments.data());
 }
 
-void draw(const std::vector<Sheet> &sheets, const std::string &picture)
+void draw(const std::vector<Panel> &panels, const std::string &csv, const std::string &picture)
 {
-   if (picture.empty() || !writes()) { return; }
-   ordered_json panels = ordered_json::array();
-   for (const Sheet &sheet : sheets)
-   {
-      if (!sheet.panel.is_null()) { panels.push_back(sheet.panel); }
-   }
-   const std::string run = picture + ".json";
-   write_whole(run, ordered_json{{"shown", {{"panels", panels}}}}.dump() + "\n");
-   show(run, true, "--plot", picture);
+   if ((csv.empty() && picture.empty()) || !writes()) { return; }
+   ordered_json all = ordered_json::array();
+   for (const Panel &panel : panels) { all.push_back(panel.json()); }
+   const std::string run = (picture.empty() ? csv : picture) + ".shown.json";
+   write_whole(run, ordered_json{{"shown", {{"panels", all}}}}.dump() + "\n");
+   std::vector<std::pair<std::string, std::string>> wanted;
+   if (!csv.empty()) { wanted.emplace_back("--csv", csv); }
+   if (!picture.empty()) { wanted.emplace_back("--plot", picture); }
+   show(run, true, wanted);
 }
 
 } // namespace miniapp

@@ -14,12 +14,11 @@ namespace miniapp
 /// Largest number of rows of a march that a picture shows.
 constexpr std::size_t most_drawn = 4096;
 
-/** Data of one panel of a figure, in two forms. In JSON it has its words (kind, title, x, y, …)
-    and `parts`, each of which has its words (a curve has series and style) and a list of
-   numbers for each column. The CSV file has the words as comment lines ("# kind: lines") and a
-   tidy table, with one row per point (series, style, x, y), zone (time, state, from, to), ring
-   (its state, from, to) or arrow (rate or total, radius, angle) of a plan, or point of a field
-   (series, x, y, value). The package cattaneo_show draws it. */
+/** Data of one panel of a figure. In JSON it has its words (kind, title, x, y, …) and `parts`,
+    each of which has its words (a curve has series and style) and a list of
+   numbers for each column: of the points (series, style, x, y), zones (time, state, from, to),
+   rings (state, from, to) and arrows (rate or total, radius, angle) of a plan, points of a
+   field (series, x, y, value). The package cattaneo_show draws it, and writes its CSV file. */
 class Panel
 {
 public:
@@ -83,7 +82,6 @@ public:
 
    const std::string &name() const { return name_; }
    bool empty() const;
-   std::string csv() const; ///< null without points
    /// Its name, its words and its parts.
    nlohmann::ordered_json json() const;
 
@@ -95,31 +93,18 @@ private:
    std::vector<nlohmann::ordered_json> parts_;
 };
 
-/// Words of a panel as comment lines of its CSV file.
-std::string comments(const nlohmann::ordered_json &words);
-
 /// Adds a value to the words of a panel. If the key has a value already, it gets a list.
 void add_word(nlohmann::ordered_json &words, const std::string &key, const std::string &word);
-
-/// A CSV file, and the panel that is drawn from it (null: none).
-struct Sheet
-{
-   std::string name, csv;
-   nlohmann::ordered_json panel;
-};
-
-/// Writes PREFIX_<sheet>.csv for every sheet; does nothing for an empty prefix. InputError if
-/// there is no sheet or a file cannot be written.
-void write_csv(const std::vector<Sheet> &sheets, const std::string &prefix);
 
 /// Makes a temporary file that other programs may read or overwrite.
 std::string temporary_file(const std::string &name, const std::string &text);
 
-/** Has the package cattaneo_show make a picture or a page ("--plot", "--html") of a run that
-    was written as JSON. InputError if it cannot, which says how to make it later; the JSON
-    stays. @param passing the JSON was written only for this, and is removed if it succeeds */
-void show(const std::string &run, bool passing, const std::string &option,
-          const std::string &file);
+/** Has the package cattaneo_show make files of a run that was written as JSON. InputError if it
+    cannot, which says how to make them later; the JSON stays.
+    @param passing the JSON was written only for this, and is removed if it succeeds
+    @param wanted option and file: --csv (a prefix), --html, --plot */
+void show(const std::string &run, bool passing,
+          const std::vector<std::pair<std::string, std::string>> &wanted);
 
 /// The answer of cattaneo_show to a question about references (compare.py); null if there is no
 /// Python. InputError if it cannot answer.
@@ -129,7 +114,8 @@ nlohmann::ordered_json ask_reader(const nlohmann::ordered_json &question);
 /// Python, with nothing changed.
 void become_reader(const std::vector<std::string> &words);
 
-/// Draws panels that belong to no study, but to a benchmark. Does nothing for an empty name.
-void draw(const std::vector<Sheet> &sheets, const std::string &picture);
+/// Draws panels that belong to no study, but to a benchmark, and writes their CSV files. Does
+/// nothing for empty names.
+void draw(const std::vector<Panel> &panels, const std::string &csv, const std::string &picture);
 
 } // namespace miniapp

@@ -103,23 +103,18 @@ void Film::show_maps(const ordered_json &interfaces, Fields fields)
 void Film::add(const ReducedProblem &problem, const ContactState &state,
                const IncrementRecord &record)
 {
-   if (fields_)
-   {
-      last_ = fields_(state);
-      last_["row"] = history_.size();
-   }
+   last_ = Frame{history_.size(), {}, {}, {}};
+   if (fields_) { last_.others = fields_(state); }
    else
    {
-      ordered_json zones = ordered_json::array();
+      last_.p = tractions(problem, state.p);
+      last_.q = tractions(problem, shear(problem, state));
+      ordered_json &zones = last_.others["zones"] = ordered_json::array();
       for (const Zone &zone : drawn_zones(problem, state))
       {
          zones.push_back({name(zone.state), rounded(zone.from.position),
                           rounded(zone.to.position), problem.chains[zone.chain].interface});
       }
-      last_ = {{"row", history_.size()},
-               {"p", list(tractions(problem, state.p))},
-               {"q", list(tractions(problem, shear(problem, state)))},
-               {"zones", zones}};
    }
    if (history_.size() % stride_ == 0) { frames_.push_back(last_); }
    history_.push_back({{"time", record.time},
@@ -128,10 +123,22 @@ void Film::add(const ReducedProblem &problem, const ContactState &state,
                        {"conjugates", list(record.conjugates)},
                        {"dissipation", rounded(record.dissipation)}});
    if (frames_.size() <= most_) { return; }
-   std::vector<ordered_json> kept;
+   std::vector<Frame> kept;
    for (std::size_t k = 0; k < frames_.size(); k += 2) { kept.push_back(frames_[k]); }
    frames_ = kept;
    stride_ *= 2;
+}
+
+ordered_json Film::Frame::json() const
+{
+   ordered_json frame = {{"row", row}};
+   if (p.size() > 0)
+   {
+      frame["p"] = list(p);
+      frame["q"] = list(q);
+   }
+   frame.update(others);
+   return frame;
 }
 
 ordered_json Film::json() const
@@ -139,8 +146,9 @@ ordered_json Film::json() const
    ordered_json film = head_;
    film["stride"] = stride_;
    film["history"] = history_;
-   film["frames"] = frames_;
-   if (frames_.back()["row"] != last_["row"]) { film["frames"].push_back(last_); }
+   ordered_json &frames = film["frames"] = ordered_json::array();
+   for (const Frame &frame : frames_) { frames.push_back(frame.json()); }
+   if (frames_.back().row != last_.row) { frames.push_back(last_.json()); }
    return film;
 }
 

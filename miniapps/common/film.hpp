@@ -30,9 +30,17 @@ public:
    nlohmann::ordered_json json() const;
 
 private:
+   struct Frame
+   {
+      std::size_t row;               ///< of the history
+      Eigen::VectorXd p, q;          ///< tractions along lines
+      nlohmann::ordered_json others; ///< zones of lines, or the fields of maps
+      nlohmann::ordered_json json() const;
+   };
    nlohmann::ordered_json head_;
-   std::vector<nlohmann::ordered_json> history_, frames_;
-   nlohmann::ordered_json last_; ///< frame, even if it is not among the kept ones
+   std::vector<nlohmann::ordered_json> history_;
+   std::vector<Frame> frames_;
+   Frame last_; ///< even if it is not among the kept ones
    std::size_t most_, stride_ = 1;
    Fields fields_; ///< of maps
 };

@@ -407,7 +407,7 @@ void Options::check_files() const
       try
       {
          const bool folder = option.kind == Text::folder;
-         if (option.kind == Text::prefix) { cattaneo::require_writable(file + "_.csv"); }
+         if (option.kind == Text::prefix) { cattaneo::require_writable(file + "_….csv"); }
          else if (!folder) { cattaneo::require_writable(file); }
          else
          {

@@ -462,6 +462,7 @@ void report_loss_error(Study &study, const MarchReport &report)
    const char *word = error.bound ? "bound" : "estimate";
    study.results[std::string("loss_error_") + word] = error.value;
    study.results["loss_error_by"] = error.by;
+   if (report.status == FrictionStatus::stopped) { return; } // on request
    if (std::isnan(error.value))
    {
       study.say("The error of the loss by the increments is not known: " + error.by);

@@ -14,8 +14,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace miniapp
 {
@@ -245,13 +243,13 @@ ResultTable &Study::table(const std::string &name, const std::vector<Column> &co
       if (table.name() == name) { return table; }
    }
    const ResultTable &made = tables_.emplace_back(name, columns);
-   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), made.panel()}; });
+   drawn_.push_back([&made] { return made.panel(); });
    return tables_.back();
 }
 
 void Study::list(const std::string &name, const ordered_json &rows)
 {
-   sheets_.push_back([sheet = Sheet{name, csv_of(rows), nullptr}] { return sheet; });
+   if (!rows.empty()) { lists_.push_back({{"name", name}, {"rows", rows}}); }
 }
 
 void Study::row(ResultTable &table, const std::vector<ordered_json> &values,
@@ -276,7 +274,7 @@ Panel &Study::panel(Panel::Kind kind, const std::string &name, const std::string
                     const std::string &x_label, const std::string &y_label)
 {
    const Panel &made = panels_.emplace_back(kind, name, title, x_label, y_label);
-   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), made.json()}; });
+   drawn_.push_back([&made] { return made.empty() ? ordered_json() : made.json(); });
    return panels_.back();
 }
 
@@ -378,13 +376,11 @@ void Study::finish()
    const cattaneo::BlasKernels kernels = cattaneo::blas_kernels();
    results["blas_kernels"] = kernels.name;
    if (verbose_) { say_more(kernels); }
-   const std::vector<Sheet> all = sheets();
    // The results are written before pictures of them.
    ordered_json run = results;
-   run["shown"] = shown(all);
+   run["shown"] = shown();
    write_long_frames(run["shown"]["marches"]);
    write_json(run, json_);
-   write_csv(all, code != 0 && all.empty() ? "" : csv_);
    show_results(run);
 }
 
@@ -415,27 +411,20 @@ void Study::say_more(const cattaneo::BlasKernels &kernels)
    say("   " + kernels.statement());
 }
 
-std::vector<Sheet> Study::sheets() const
+ordered_json Study::shown() const
 {
-   std::vector<Sheet> sheets;
-   for (const auto &sheet : sheets_)
-   {
-      sheets.push_back(sheet());
-      if (sheets.back().csv.empty()) { sheets.pop_back(); }
-   }
-   return sheets;
-}
-
-ordered_json Study::shown(const std::vector<Sheet> &sheets) const
-{
-   ordered_json panels = ordered_json::array(), tables = ordered_json::array(),
+   ordered_json panels = ordered_json::array(), tables = ordered_json::array(), csv = lists_,
                 marches = ordered_json::array();
-   for (const Sheet &sheet : sheets)
+   for (const auto &drawn : drawn_)
    {
-      if (!sheet.panel.is_null()) { panels.push_back(sheet.panel); }
+      ordered_json panel = drawn();
+      if (!panel.is_null()) { panels.push_back(std::move(panel)); }
    }
    for (const ResultTable &table : tables_)
    {
+      if (table.json().empty()) { continue; }
+      const std::vector<std::string> keys = table.keys();
+      if (!keys.empty()) { csv.push_back({{"name", table.name()}, {"columns", keys}}); }
       const ordered_json printed = table.printed();
       if (!printed["head"].empty() && !printed["rows"].empty()) { tables.push_back(printed); }
    }
@@ -454,6 +443,7 @@ ordered_json Study::shown(const std::vector<Sheet> &sheets) const
       {"lead", lead},
       {"values", values_},
       {"tables", tables},
+      {"csv", csv},
       {"panels", panels},
       {"marches", marches},
       {"more_marches", more_films_},
@@ -462,22 +452,29 @@ ordered_json Study::shown(const std::vector<Sheet> &sheets) const
 
 void Study::show_results(const ordered_json &run) const
 {
-   if (!draws()) { return; }
+   const ordered_json &shown = run["shown"];
    // A study without an equilibrium may end before there is anything to draw.
-   const bool drawn = !run["shown"]["panels"].empty();
+   const bool drawn = !shown["panels"].empty(), tables = drawn || !shown["csv"].empty();
    cattaneo::require(drawn || code != 0 || plot_.empty(),
                      "option --plot: this run has nothing to draw");
-   const bool picture = has_picture() && drawn, passing = json_.empty();
+   cattaneo::require(tables || code != 0 || csv_.empty(),
+                     "option --csv: this run has no tables");
    if (has_picture() && !drawn)
    {
       std::printf("no picture: the study ended before there was anything to draw\n");
    }
-   if (!picture && html_.empty()) { return; }
-   const std::string file = !passing ? json_ : (picture ? plot_ : html_) + ".json";
+   std::vector<std::pair<std::string, std::string>> wanted;
+   if (!csv_.empty() && tables) { wanted.emplace_back("--csv", csv_); }
+   if (!html_.empty()) { wanted.emplace_back("--html", html_); }
+   if (has_picture() && drawn) { wanted.emplace_back("--plot", plot_); }
+   if (wanted.empty()) { return; }
+   const auto &[option, name] = wanted.back();
+   const bool passing = json_.empty();
+   const std::string file = !passing            ? json_
+                            : option == "--csv" ? name + "_run.json"
+                                                : name + ".json";
    if (passing) { write_json(run, file); }
-   // The page first, because it can be made even where a picture cannot.
-   if (!html_.empty()) { show(file, passing && !picture, "--html", html_); }
-   if (picture) { show(file, passing, "--plot", plot_); }
+   show(file, passing, wanted);
 }
 
 int Study::run(const std::string &name, int argc, char *argv[],

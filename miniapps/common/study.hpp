@@ -166,10 +166,8 @@ private:
    bool is_compared(const std::string &key);
    /// Lets the package cattaneo_show compare the results with references.
    void compare_references();
-   /// The tables and panels that are not empty.
-   std::vector<Sheet> sheets() const;
-   /// Data that pictures and the page show besides the results.
-   nlohmann::ordered_json shown(const std::vector<Sheet> &sheets) const;
+   /// Data that pictures, the page and CSV files show besides the results.
+   nlohmann::ordered_json shown() const;
    void show_results(const nlohmann::ordered_json &run) const;
    /// Increments of more than a megabyte go to a separate file, FILE.frames beside the JSON.
    /// The JSON then has the name of this file.
@@ -189,7 +187,9 @@ private:
    int cycles_before_ = 0, histories_ = 0;
    int more_films_ = 0;                                              ///< not on the page
    nlohmann::ordered_json values_ = nlohmann::ordered_json::array(); ///< as they are printed
-   std::vector<std::function<Sheet()>> sheets_; ///< in the order of the figure
+   /// Panels in the order of the figure; null without data.
+   std::vector<std::function<nlohmann::ordered_json()>> drawn_;
+   nlohmann::ordered_json lists_ = nlohmann::ordered_json::array(); ///< with their names
    /// Values with their keys, and closed forms, for the comparison at the end.
    nlohmann::ordered_json found_ = nlohmann::ordered_json::array(),
                           closed_ = nlohmann::ordered_json::array();

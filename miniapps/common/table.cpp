@@ -42,37 +42,6 @@ std::string cell(const ordered_json &value, const Column &column)
    return text(column.format.c_str(), value.get<double>());
 }
 
-/// A value in a CSV file. Anything that is not a single value is left out.
-std::string field(const ordered_json &value)
-{
-   if (value.is_string()) { return cattaneo::csv_field(value.get<std::string>()); }
-   if (value.is_number_float())
-   {
-      return std::isfinite(value.get<double>()) ? text("%.10g", value.get<double>()) : "";
-   }
-   return value.is_primitive() && !value.is_null() ? value.dump() : "";
-}
-
-/// The text of a CSV file, with a line of keys above the rows.
-std::string lines_of(const std::vector<std::string> &keys, const ordered_json &rows)
-{
-   std::string result;
-   const auto add = [&](auto cell)
-   {
-      for (const std::string &key : keys)
-      {
-         result += (&key == &keys[0] ? "" : ",") + cell(key);
-      }
-      result += '\n';
-   };
-   add([](const std::string &key) { return cattaneo::csv_field(key); });
-   for (const ordered_json &row : rows)
-   {
-      add([&](const std::string &key) { return row.contains(key) ? field(row[key]) : ""; });
-   }
-   return result;
-}
-
 /// The table whose headings were printed last.
 const ResultTable *&on_screen()
 {
@@ -181,32 +150,14 @@ ordered_json ResultTable::panel() const
    return panel;
 }
 
-std::string ResultTable::csv() const
+std::vector<std::string> ResultTable::keys() const
 {
    std::vector<std::string> keys;
    for (const Column &column : columns_)
    {
       if (!column.key.empty()) { keys.push_back(column.key); }
    }
-   return rows_.empty() ? "" : comments(words_) + lines_of(keys, rows_);
-}
-
-std::string csv_of(const ordered_json &rows)
-{
-   std::vector<std::string> keys;
-   ordered_json flat = ordered_json::array();
-   for (const ordered_json &row : rows)
-   {
-      ordered_json &made = flat.emplace_back(ordered_json::object());
-      const ordered_json leaves = row.flatten();
-      for (const auto &[path, value] : leaves.items()) // "/k_n/value"
-      {
-         const std::string key = listed(split(path, "/"), ".");
-         if (std::find(keys.begin(), keys.end(), key) == keys.end()) { keys.push_back(key); }
-         made[key] = value;
-      }
-   }
-   return rows.empty() ? "" : lines_of(keys, flat);
+   return keys;
 }
 
 std::vector<ordered_json> ResultTable::values(const ordered_json &row) const

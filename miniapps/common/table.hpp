@@ -22,8 +22,8 @@ struct Column
 };
 
 /** Rows that are stated once. They are printed, aligned, as they come. In JSON they are a list
-    of objects with the columns' keys. They also make a CSV file and, if requested, a panel of
-    the figure. */
+    of objects with the columns' keys, of which cattaneo_show makes a CSV file and, if
+    requested, a panel of the figure. */
 class ResultTable
 {
 public:
@@ -58,7 +58,7 @@ public:
 
    const std::string &name() const { return name_; }
    const nlohmann::ordered_json &json() const { return rows_; }
-   std::string csv() const; ///< nothing without rows
+   std::vector<std::string> keys() const; ///< of its columns
    /// Adds a row of read_rows(), in the order of the columns.
    std::vector<nlohmann::ordered_json> values(const nlohmann::ordered_json &row) const;
    /// Its headings and rows as they are printed.
@@ -73,11 +73,7 @@ private:
    bool quiet_ = false;
 };
 
-/// The CSV text of a list of objects: a column for each number and word in them, "k_n.value"
-/// for nested ones, "notes.0" for lists.
-std::string csv_of(const nlohmann::ordered_json &rows);
-
-/// Rows of a file of ResultTable::csv(), by the keys of its columns; none without the file.
+/// Rows of a CSV file of a table, by the keys of its columns; none without the file.
 std::vector<nlohmann::ordered_json> read_rows(const std::string &file);
 
 } // namespace miniapp

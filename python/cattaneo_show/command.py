@@ -10,7 +10,7 @@ import sys
 from . import Refused, page, panel, panel_names, plot, read
 from .panels import pieces, unquoted
 from .sweep import sweep
-from .tables import csv_of, write
+from .tables import cannot_write, csv_files, write
 
 WITHOUT_MATPLOTLIB = 3
 
@@ -45,19 +45,24 @@ def of_sweep(file, arguments):
     return sweep(plan, draws)
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Refused(message + " (-h lists the options)")
+
+
 def main(arguments=None):
     arguments = sys.argv[1:] if arguments is None else arguments
-    parser = argparse.ArgumentParser(
-        prog="show", description="Draws a run of Cattaneo's programs, from the JSON that --json wrote. Without --plot and --html: the names of its panels.")
+    parser = Parser(
+        prog="show", description="Draws a run of Cattaneo's programs, from the JSON that --json wrote. Without --plot, --html and --csv: the names of its panels.")
     parser.add_argument("run", metavar="RUN.json", nargs="?")
     parser.add_argument("--plot", metavar="FILE", help="picture: png, pdf or svg (needs matplotlib)")
     parser.add_argument("--panels", metavar="NAMES", help="panels of the picture, in this order, between blanks, those with blanks in quotes (default: all)")
     parser.add_argument("--each", action="store_true", help="a picture for each panel: FILE_panel.pdf of --plot FILE.pdf")
-    parser.add_argument("--csv", metavar="PREFIX", help="the data of each panel as a CSV file: PREFIX_panel.csv")
+    parser.add_argument("--csv", metavar="PREFIX", help="each table and panel as a CSV file: PREFIX_name.csv")
     parser.add_argument("--html", metavar="FILE", help="page of the run (its figures need matplotlib; its slider, that the run had --html)")
     parser.add_argument("--sweep", metavar="PLAN", help=argparse.SUPPRESS)  # of a program's option --sweep
-    options = parser.parse_args(arguments)
     try:
+        options = parser.parse_args(arguments)
         if options.sweep:
             return of_sweep(options.sweep, arguments)
         if options.run is None:
@@ -70,8 +75,9 @@ def main(arguments=None):
             raise Refused("option --each does nothing: it goes with --plot")
         names = None if options.panels is None else [unquoted(name) for name in pieces("option --panels", options.panels, " \t,")]
         if options.csv:
-            for name in panel_names(run) if names is None else names:
-                write(f"{options.csv}_{name}.csv", csv_of(*panel(run, name)))
+            files = csv_files(run)
+            for name in files if names is None else [one for one in names if panel(run, one)]:
+                write(f"{options.csv}_{name}.csv", files[name])
         if options.html:
             page(run, options.html, figure=draws)
             if not run["shown"]["marches"] and "CATTANEO_PROGRAM" not in os.environ:
@@ -91,6 +97,7 @@ def main(arguments=None):
         if not options.plot and not options.html and not options.csv:
             print("\n".join(panel_names(run)))
     except (Refused, OSError, ValueError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        told = cannot_write(error.filename, error) if isinstance(error, OSError) and error.filename else error
+        print(f"error: {told}", file=sys.stderr)
         return 1
     return 0

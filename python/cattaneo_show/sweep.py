@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import shlex
 import signal
 import subprocess
 import sys
@@ -16,11 +17,11 @@ import time
 
 from .page import page
 from .panels import Refused, pieces, unquoted
-from .tables import Table, csv_of_lines, text_of, write
+from .tables import Table, csv_files, text_of, write
 
 # Sizes and times of a run, and residuals. They are listed only on request.
 NO_RESULTS = {"contact_nodes", "dofs", "seconds", "seconds_condensation", "time", "event_time", "largest_residual", "energy_imbalance"}
-NOT_SHOWN = {"first_cycle", "state_changes", "steady_cycle", "steady_period"}  # unasked: they say how a run went
+NOT_SHOWN = {"thickness", "first_cycle", "state_changes", "steady_cycle", "steady_period"}  # unasked: an input, and how a run went
 MOST_SHOWN = 9  # columns on the screen, and panels
 
 
@@ -155,8 +156,10 @@ def single_numbers(points, keys):
 
 
 def varies(points, path):
-    """Does a result differ from point to point that ended well (from all, if none did), by more than round-off?"""
-    points = [point for point in points if point.ended_well] or points
+    """Does a result differ from point to point that ended well (from all that have it, if fewer than two did), by more than
+    round-off?"""
+    well = [point for point in points if point.ended_well]
+    points = well if len(well) > 1 else [point for point in points if result(point.results, path) is not None] or points
     first = result(points[0].results, path)
     for point in points:
         x = result(point.results, path)
@@ -295,7 +298,7 @@ def sweep(plan, draws):
         print(f"{len(names) - len(shown)} more results, which do not vary or are too many, are only in --json and --csv; "
               "--sweep-results names those to be shown")
     converged = sum(point.ended_well for point in points)
-    panels = curves(keys, points, {name: names[name] for name in shown or list(names)[:1]})
+    panels = curves(keys, points, {name: names[name] for name in shown or [name for name in names if name not in NOT_SHOWN][:1]})
     run.update(points=len(points), status="ended early" if missing else "converged")
     if converged < asked:
         run["status"] = "stopped" if len(points) < asked else "ended early"
@@ -308,14 +311,14 @@ def sweep(plan, draws):
     run.update(sweep=table.rows, references=[], seconds=time.monotonic() - begun, counters=counters, blas_kernels=plan["blas_kernels"],
                warnings=warnings)
     run["shown"] = {"study": plan["study"], "event": "", "units": {"length": "", "pressure": ""}, "options": options, "values": [], "tables": [in_words(table.printed(), keys, points)] if points else [],
-                    "panels": panels, "marches": [], "more_marches": 0}
+                    "csv": [{"name": "sweep", "columns": table.keys()}], "panels": panels, "marches": [], "more_marches": 0}
     if options["verbose"]:
         print(f"\nWhat it took, {run['seconds']:.3g} s")
         for name, count in counters.items():
             if count > 0:
                 print(f"   {name.replace('_', ' '):40} {count}")
     sys.stdout.flush()
-    report(run, table, options, draws)
+    report(run, options, draws)
     return 0 if converged == asked and not missing else 2
 
 
@@ -342,7 +345,7 @@ def table_of(keys, points, names, shown):
     return table
 
 
-def report(run, table, options, draws):
+def report(run, options, draws):
     """Writes JSON, CSV, page and picture, as requested. A run that cannot be drawn keeps its JSON."""
     from . import plot
 
@@ -354,9 +357,8 @@ def report(run, table, options, draws):
     if kept:
         write(kept, json.dumps(run, ensure_ascii=False, indent=1) + "\n")
     if wanted("csv"):
-        write(f"{wanted('csv')}_sweep.csv", table.csv())
-        for panel in run["shown"]["panels"]:
-            write(f"{wanted('csv')}_{panel['name']}.csv", csv_of_lines(panel))
+        for name, text in csv_files(run).items():
+            write(f"{wanted('csv')}_{name}.csv", text)
     if wanted("html"):
         page(run, wanted("html"), figure=draws)
         if not draws and run["shown"]["panels"]:
@@ -368,5 +370,6 @@ def report(run, table, options, draws):
         return
     if not draws:
         raise Refused(f"option --plot: '{picture}' was not made; it needs matplotlib (Debian: python3-matplotlib); the sweep is in "
-                      f"'{kept}', and this makes it later: ./run show {kept} --plot {picture}")
+                      f"'{kept}', and this makes it later: python3 {shlex.quote(os.path.dirname(os.path.abspath(__file__)))} {shlex.quote(kept)} "
+                      f"--plot {shlex.quote(picture)}")
     plot(run, picture)

@@ -4,6 +4,8 @@ import math
 import os
 
 from .panels import Refused
+from .panels import rows as rows_of_panel
+from .panels import words as words_of_panel
 
 
 def text_of(x):
@@ -34,9 +36,8 @@ class Table:
         for line in [heads, *self.cells] if self.cells else []:
             print("".join("  " + text.rjust(max(10, len(head))) for text, head in zip(line, heads)))
 
-    def csv(self):
-        keys = [key for key, _, _ in self.columns if key]
-        return "".join(",".join(line) + "\n" for line in [map(quoted, keys), *([field(row[key]) for key in keys] for row in self.rows)])
+    def keys(self):
+        return [key for key, _, _ in self.columns if key]
 
 
 def cell(x, form):
@@ -50,41 +51,64 @@ def cell(x, form):
 
 
 def field(x):
+    """A value in a CSV file. Anything that is not a single value is left out."""
     if isinstance(x, str):
         return quoted(x)
     if isinstance(x, bool):
         return "true" if x else "false"
     if isinstance(x, float):
         return f"{x:.10g}" if math.isfinite(x) else ""
-    return "" if x is None else str(x)
+    return "" if x is None or isinstance(x, (dict, list)) else str(x)
 
 
 def quoted(text):
     return '"' + text.replace('"', '""') + '"' if any(mark in text for mark in ',"\n\r') else text
 
 
-def csv_of_lines(panel):
-    """The CSV file of a panel of lines: its words as comments, then a row per point."""
-    lines = [f"# {key}: {text}" for key, text in panel.items() if key not in ("name", "parts")] + ["series,style,x,y"]
-    for part in panel["parts"]:
-        lines += [f"{quoted(part['series'])},{part['style']},{x:.9g},{y:.9g}" for x, y in zip(part["x"], part["y"])]
-    return "\n".join(lines) + "\n"
-
-
-def csv_of(words, rows):
-    """The CSV file of any panel: its words as comments, then its rows."""
+def csv_of(words, keys, rows):
+    """The CSV file of rows: words as comments, the keys of the columns, and a line per row."""
     lines = [f"# {key}: {text}" for key, texts in words.items() for text in texts]
-    columns = list(dict.fromkeys(key for row in rows for key in row))
-    lines += [",".join(map(quoted, columns)), *(",".join(field(row.get(key)) for key in columns) for row in rows)]
+    lines += [",".join(map(quoted, keys)), *(",".join(field(row.get(key)) for key in keys) for row in rows)]
     return "\n".join(lines) + "\n"
+
+
+def flat(row, path=""):
+    """Values in a result by their places: "k_n.value" for nested ones, "notes.0" for lists."""
+    if not row or not isinstance(row, (dict, list)):
+        return {path: None if isinstance(row, (dict, list)) else row}
+    inner = row.items() if isinstance(row, dict) else enumerate(row)
+    return {place: x for key, value in inner for place, x in flat(value, f"{path}.{key}" if path else str(key)).items()}
+
+
+def csv_files(run):
+    """Text of a CSV file for each table and panel of a run, by their names: all that --csv writes at the end of a run."""
+    panels, files = {one["name"]: one for one in run["shown"]["panels"]}, {}
+    for one in run["shown"].get("csv", []):
+        name, rows = one["name"], one.get("rows")
+        rows = run[name] if rows is None else [flat(row) for row in rows]
+        keys = one.get("columns") or list(dict.fromkeys(key for row in rows for key in row))
+        files[name] = csv_of(words_of_panel(panels.get(name, {})), keys, rows)
+    for name, one in panels.items():
+        if name not in files:
+            rows = rows_of_panel(run, one)
+            keys = sorted(dict.fromkeys(key for row in rows for key in row), key=lambda key: key != "time")
+            files[name] = csv_of(words_of_panel(one), keys, rows)
+    return files
+
+
+def cannot_write(file, error):
+    """A sentence about a file that an OSError is about."""
+    folder = os.path.dirname(file or "") or "."
+    return f"file '{file}' cannot be written: " + (error.strerror if os.path.isdir(folder) else f"there is no folder '{folder}'")
 
 
 def write(file, text):
     """Writes a file, whole or not at all. Refused if it cannot be written."""
-    part = f"{file}.part"
+    end = os.path.realpath(file)  # a link stays
+    part = f"{end}.part"
     try:
         with open(part, "w", encoding="utf-8") as out:
             out.write(text)
-        os.replace(part, file)
+        os.replace(part, end)
     except OSError as error:
-        raise Refused(f"file '{file}' cannot be written: {error.strerror}") from error
+        raise Refused(cannot_write(file, error)) from error

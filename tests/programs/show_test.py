@@ -81,6 +81,22 @@ def test_panels_are_chosen_by_name(run):
         table = (run.folder / f"of_{name}.csv").read_text(encoding="utf-8")
         assert f"# title: {titles[name]}\n" in table and len(table.splitlines()) > 8
     refused(show(kept, "--each", code=1), "--each", "goes with --plot")
+    refused(show(kept, "--pannels", "x", code=1), "--pannels", "-h lists the options")
+    for option, file in (("--plot", "x.png"), ("--html", "x.html"), ("--csv", "x")):
+        refused(show(kept, option, run.folder / "no" / file, code=1), "no/x", "cannot be written: there is no folder", str(run.folder / "no"))
+
+
+def test_tables_that_are_made_later_are_the_same(run):
+    """With --csv alone the run leaves no JSON. A kept JSON gives the same files later, besides those that are written during the march."""
+    line = [run.programs / "march", "-case", "problems/sliders.case.json", "--csv"]
+    subprocess.run([*line, run.folder / "now"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([*line, run.folder / "other", "--json", run.folder / "kept.json"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    show(run.folder / "kept.json", "--csv", run.folder / "later")
+    now, later = ({file.name.removeprefix(prefix): file.read_bytes() for file in run.folder.glob(prefix + "*")} for prefix in ("now", "later"))
+    assert set(now) - set(later) == {"_history.csv", "_nodes.csv"} and "_zones.csv" in later, list(now)
+    assert all(now[name] == text for name, text in later.items())
+    zones = next(text.decode() for name, text in later.items() if name.startswith("_zones_in_time"))
+    assert next(line for line in zones.splitlines() if line[0] != "#") == "time,state,from,to"
 
 
 def test_what_is_no_run_is_refused(run):
@@ -108,10 +124,12 @@ def test_without_matplotlib_the_run_is_not_lost(run):
 def test_without_python_the_run_is_not_lost(run):
     empty = run.folder / "empty"
     empty.mkdir()
-    for option, file in (("--plot", "x.png"), ("--html", "x.html")):
+    for option, file, kept in (("--plot", "x.png", "x.png.json"), ("--html", "x.html", "x.html.json"), ("--csv", "x", "x_run.json")):
         failed = program(run, option, file, path=empty, code=1)
-        refused(failed, "option " + option, file, "needs Python 3", file + ".json")
-        assert json.loads(run.text(file + ".json"))["status"] == "converged" and not (run.folder / file).exists()
+        refused(failed, "option " + option, file, "needs Python 3", kept)
+        assert json.loads(run.text(kept))["status"] == "converged" and not (run.folder / file).exists()
+    # One sentence for all files that are missing.
+    refused(program(run, "--plot", "z.png", "--csv", "z", path=empty, code=1), "'z_….csv' was not made", "'z.png' was not made", "--csv 'z' --plot 'z.png'")
     # What --json named is what stands.
     failed = program(run, "--json", "kept.json", "--plot", "y.png", path=empty, code=1)
     refused(failed, "'kept.json'")
