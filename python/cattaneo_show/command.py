@@ -66,7 +66,7 @@ def main(arguments=None):
         if options.sweep:
             return of_sweep(options.sweep, arguments)
         if options.run is None:
-            raise Refused("the file of a run must be named (./run NAME --json RUN.json writes it)")
+            raise Refused("the file of a run must be named, which a program writes with --json RUN.json")
         draws = bool(options.plot or options.html) and find_matplotlib(arguments)
         run = read(options.run)
         if options.panels is not None and not options.plot and not options.csv:
