@@ -20,6 +20,7 @@ Names are those of the C++ library; docs/python.md is the guide.
 from . import (
     design as design,
     fretting as fretting,
+    joints as joints,
     readout as readout,
     shakedown as shakedown,
     show as show,

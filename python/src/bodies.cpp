@@ -44,7 +44,7 @@ constexpr int most_rows = std::numeric_limits<int>::max() - 1;
 
 /// A copy in SciPy's csr. The indices of a csr matrix must be checked, because a script may
 /// have changed them, and SciPy would write outside the matrix.
-nb::object own_rows(nb::handle K)
+nb::object own_rows(nb::handle K, const std::string &name)
 {
    if (nb::hasattr(K, "row") && nb::hasattr(K, "col")) // coo
    {
@@ -52,11 +52,11 @@ nb::object own_rows(nb::handle K)
       const char *const names[] = {"row", "col"};
       for (int k : {0, 1})
       {
-         const std::string what = std::string("K.") + names[k];
+         const std::string what = name + "." + names[k];
          const auto found =
             indices(nb::object(K.attr(names[k])), what, 0, integer(K.attr("shape")[k]) - 1);
          require(static_cast<Index>(found.size()) == entries, what, " has ", found.size(),
-                 " entries, must have ", entries, " as K.data");
+                 " entries, must have ", entries, " as ", name, ".data");
       }
    }
    try
@@ -71,36 +71,36 @@ nb::object own_rows(nb::handle K)
    catch (nb::python_error &error)
    {
       if (!error.matches(PyExc_ValueError)) { throw; }
-      throw InputError(std::string("K is not a valid sparse matrix: ") +
-                       nb::str(error.value()).c_str());
+      throw InputError(name +
+                       " is not a valid sparse matrix: " + nb::str(error.value()).c_str());
    }
 }
 
 /// A sparse or dense matrix of Python. Duplicate entries are added up, as SciPy does.
-NodalStiffness::Matrix stiffness(nb::handle K)
+NodalStiffness::Matrix sparse_matrix(nb::handle K, const std::string &name)
 {
    if (!nb::hasattr(K, "tocsr")) // dense
    {
-      const Eigen::MatrixXd dense = matrix(K, "K");
-      require(dense.rows() == dense.cols() && dense.rows() > 0, "K has shape (", dense.rows(),
-              ", ", dense.cols(), "), must be square");
+      const Eigen::MatrixXd dense = matrix(K, name);
+      require(dense.rows() == dense.cols() && dense.rows() > 0, name, " has shape (",
+              dense.rows(), ", ", dense.cols(), "), must be square");
       return dense.sparseView(0.0, 0.0);
    }
-   const nb::object rows = own_rows(K);
+   const nb::object rows = own_rows(K, name);
    rows.attr("sum_duplicates")();
    const Index size = integer(rows.attr("shape")[0]), columns = integer(rows.attr("shape")[1]),
                entries = integer(rows.attr("nnz"));
-   require(size == columns && size > 0, "K has shape (", size, ", ", columns,
+   require(size == columns && size > 0, name, " has shape (", size, ", ", columns,
            "), must be square");
-   require(entries <= most_rows, "K has ", entries, " entries, at most ", most_rows,
+   require(entries <= most_rows, name, " has ", entries, " entries, at most ", most_rows,
            " are possible");
-   const Eigen::VectorXd values = vector(rows.attr("data"), "K.data", entries);
-   const auto column = indices(rows.attr("indices"), "K.indices", 0, size - 1),
-              start = indices(rows.attr("indptr"), "K.indptr", 0, entries);
+   const Eigen::VectorXd values = vector(rows.attr("data"), name + ".data", entries);
+   const auto column = indices(rows.attr("indices"), name + ".indices", 0, size - 1),
+              start = indices(rows.attr("indptr"), name + ".indptr", 0, entries);
    require(static_cast<Index>(column.size()) == entries &&
               static_cast<Index>(start.size()) == size + 1 && start.front() == 0 &&
               start.back() == entries && std::is_sorted(start.begin(), start.end()),
-           "K.indptr does not fit K: it must have ", size + 1,
+           name, ".indptr does not fit ", name, ": it must have ", size + 1,
            " entries that increase from 0 to ", entries);
    return Eigen::Map<const NodalStiffness::Matrix>(size, size, entries, start.data(),
                                                    column.data(), values.data());
@@ -273,6 +273,16 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
    body.validate();
 }
 
+void set_mass(NodalStiffness &body, nb::handle M)
+{
+   NodalStiffness::Matrix mass = sparse_matrix(M, "M");
+   require(mass.rows() == body.K.rows(), "M has shape (", mass.rows(), ", ", mass.rows(),
+           "), must be that of K, (", body.K.rows(), ", ", body.K.rows(), ")");
+   const NodalStiffness::Matrix skew = mass - NodalStiffness::Matrix(mass.transpose());
+   require(skew.norm() <= 1e-10 * mass.norm(), "M is not symmetric, must be");
+   body.M = std::move(mass);
+}
+
 nb::object sparse(const NodalStiffness::Matrix &K)
 {
    const Index rows = K.rows(), entries = K.nonZeros();
@@ -335,7 +345,7 @@ void bind_stiffness(nb::module_ &m)
          "__init__",
          [](Self *self, Matrix K, Numbers places, Numbers dofs, Numbers elements,
             const std::string &formulation, Numbers fixed, const NamedNumbers &loads,
-            const NamedNumbers &sets, bool supports_left_out, const std::string &name)
+            const NamedNumbers &sets, bool supports_left_out, const std::string &name, Matrix M)
          {
             Self body;
             body.name = name;
@@ -343,10 +353,11 @@ void bind_stiffness(nb::module_ &m)
             require(body.formulation != Formulation::torsion, "formulation is '", formulation,
                     "', must be one of 'plane', 'axisymmetric'");
             body.supports_left_out = supports_left_out;
-            body.K = stiffness(K);
+            body.K = sparse_matrix(K, "K");
             try
             {
                fill(body, places, dofs, elements, fixed, loads, sets);
+               if (!M.is_none()) { set_mass(body, M); }
             }
             catch (const InputError &error)
             {
@@ -362,7 +373,7 @@ void bind_stiffness(nb::module_ &m)
          arg("K"), arg("places"), arg("dofs") = nb::none(), arg("elements") = nb::none(),
          nb::kw_only(), arg("formulation") = "plane", arg("fixed") = nb::none(),
          arg("loads") = nb::dict(), arg("sets") = nb::dict(), arg("supports_left_out") = false,
-         arg("name") = "body",
+         arg("name") = "body", arg("M") = nb::none(),
          "K: symmetric, of all rows, supported ones among them, not eliminated (n rows).\n"
          "places: (nodes, 2), x and y (r and z) of node 0, 1, …; (nodes, 3) of a body in "
          "space.\n"
@@ -382,12 +393,20 @@ void bind_stiffness(nb::module_ &m)
          "supports_left_out: K resists motions that nothing here holds (springs to the ground, "
          "supports whose rows are gone). Rows that hold nothing but their diagonal, or "
          "nothing, "
-         "are supports that were eliminated: they are fixed, which condense() warns of.")
+         "are supports that were eliminated: they are fixed, which condense() warns of.\n"
+         "M: the mass, symmetric, with the rows of K, in units in which M times an "
+         "acceleration "
+         "is a force.")
       .def_rw("name", &Self::name)
       .def_prop_ro("formulation", [](const Self &self) { return word(self.formulation); })
       .def_prop_ro(
          "K", [](const Self &self) { return sparse(self.K); },
          nb::sig("def K(self) -> scipy.sparse.csr_array"), "a copy")
+      .def_prop_rw(
+         "M", [](const Self &self) { return sparse(self.M); },
+         [](Self &self, const Matrix &M) { set_mass(self, M); },
+         nb::for_getter(nb::sig("def M(self) -> scipy.sparse.csr_array")),
+         nb::for_setter(arg("M")), "the mass, a copy; without rows if it is not known")
       .def_prop_ro(
          "nodes", [](const Self &self) { return array_of_indices(node_numbers(self)); },
          "numbers of the nodes, increasing")
@@ -572,26 +591,34 @@ void bind_stiffness(nb::module_ &m)
 
    m.def(
       "read_stiffness",
-      [](File matrix, File places)
+      [](File matrix, File places, File mass)
       {
+         const auto with_mass = [&](NodalStiffness made)
+         {
+            if (!mass.is_none()) { read_mass(made, file(mass, "mass")); }
+            return made;
+         };
          const std::string name = file(matrix, "matrix");
          std::string at = places.is_none() ? std::string() : file(places, "places");
          const nb::object plain = nb::module_::import_("cattaneo._files").attr("plain")(name);
-         if (plain.is_none()) { return read_stiffness(name, at); }
+         if (plain.is_none()) { return with_mass(read_stiffness(name, at)); }
          if (at.empty() && !nb::cast<bool>(plain[2]))
          {
             at = std::filesystem::path(name).replace_extension(".dofs").string();
          }
          NodalStiffness result = read_stiffness(nb::cast<std::string>(plain[1]), at);
          result.name = name;
-         return result;
+         return with_mass(std::move(result));
       },
-      arg("matrix"), arg("places") = nb::none(),
+      arg("matrix"), arg("places") = nb::none(), arg("mass") = nb::none(),
       "Reads a stiffness.\n\n"
       "matrix: a file of CalculiX (.sti), ABAQUS (.mtx), MATLAB (.mat with K, by SciPy) or a "
       "script (.mtx, .npy, .npz with .dofs; .npz of write_npz).\n"
       "places: the file with the places of nodes, an .inp or .dofs, if it is not beside the "
-      "matrix with the same name.");
+      "matrix with the same name.\n"
+      "mass: the file with the mass of the same rows, which becomes `M`: of CalculiX (.mas), "
+      "of "
+      "ABAQUS (*MATRIX GENERATE, MASS), MatrixMarket (.mtx), .npy or .npz.");
    m.def(
       "nodal_stiffness", [](CondensedBody &body) { return nodal_stiffness(body); }, arg("body"),
       "The stiffness of a condensed body on its contact nodes, for another program.");

@@ -107,4 +107,5 @@ NB_MODULE(_core, m)
    python::bind_fretting(m);
    python::bind_wear(m);
    python::bind_design(m);
+   python::bind_joints(m);
 }

@@ -21,5 +21,6 @@ void bind_shakedown(nanobind::module_ &m);
 void bind_fretting(nanobind::module_ &m);
 void bind_wear(nanobind::module_ &m);
 void bind_design(nanobind::module_ &m);
+void bind_joints(nanobind::module_ &m);
 
 } // namespace cattaneo::python

@@ -70,6 +70,19 @@ def test_lapped_beams(tmp_path):
     assert numbers(next(each for each in out.splitlines() if each.startswith("loss of a cycle")))[0] > 1
 
 
+def test_vibrating_beam():
+    """A coarse beam: the first loop without slip has the frequency of the mode, and all loops are steady."""
+    pytest.importorskip("skfem")
+    out = run(EXAMPLES / "vibrating_beam.py", 0.2, 1, "1e-6", "3e-4", 3)
+    loops = [line for line in out.splitlines() if " q " in line]
+    assert "6 rigid motions" in out and len(loops) == 3 and all(line.endswith("steady") for line in loops)
+    ratios = [float(line.split("ω/ω₀")[1].split()[0]) for line in loops]
+    assert ratios[0] == pytest.approx(1, abs=1e-6) and ratios[-1] < 0.999
+    # Steel of 7.85e-9 t/mm³: 720 mm of 25.4 mm square.
+    mass = float(out.split("mass ")[1].split()[0])
+    assert mass == pytest.approx(7.85e-9 * 25.4**2 * 720, rel=1e-6)
+
+
 def test_sphere(tmp_path):
     """The study by few squares and by triangles: closed forms of displacements to one per cent, of radii within their ±."""
     pytest.importorskip("matplotlib")
@@ -150,7 +163,7 @@ def test_page_names_what_there_is():
         if not row.startswith("| `"):
             continue
         cell = row.split("|")[1]
-        inside = {f"`cattaneo.{name}`": getattr(cattaneo, name) for name in ("readout", "shakedown", "wear", "design", "fretting")}
+        inside = {f"`cattaneo.{name}`": getattr(cattaneo, name) for name in ("readout", "shakedown", "wear", "design", "fretting", "joints")}
         room = inside.get(cell.strip())
         # An argument in brackets behind its function is none of the module.
         names = re.sub(r"\(`[^)]*\)", "", row.split("|")[2]) if room else cell

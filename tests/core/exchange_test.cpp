@@ -1056,6 +1056,84 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
 }
 
 /// ABAQUS writes the matrices of job.inp into job_STIF1.mtx, job_STIF2.mtx, …
+/// Two nodes whose masses are their numbers, with a mass between both, in files of each
+/// kind. Rows of the mass stand in another order than those of the stiffness.
+TEST_F(Exchange, MassesOfEachKind)
+{
+   const std::string deck = "*NODE\n1, 0., 0.\n2, 1., 0.\n";
+   write_whole("m.inp", deck);
+   write_whole("m.mtx", "1,1,1,1,4.\n1,2,1,2,4.\n2,1,2,1,4.\n2,2,2,2,4.\n");
+   const auto expect_masses = [](const NodalStiffness &body)
+   {
+      ASSERT_EQ(body.M.rows(), body.K.rows());
+      for (std::size_t row = 0; row < body.dofs.size(); ++row)
+      {
+         const int k = static_cast<int>(row);
+         EXPECT_EQ(body.M.coeff(k, k), body.dofs[row].node);
+      }
+      EXPECT_EQ(body.M.sum(), 2 * (1 + 2) + 2 * 0.25);
+      const auto at = body.rows();
+      EXPECT_EQ(body.M.coeff(at.at({1, 2}), at.at({2, 2})), 0.25);
+   };
+   NodalStiffness body = read_stiffness("m.mtx");
+   EXPECT_EQ(body.M.rows(), 0);
+   write_whole("m_MASS1.mtx", "2,2,2,2,2.\n2,1,2,1,2.\n2,2,1,2,.25\n1,2,1,2,1.\n1,1,1,1,1.\n");
+   read_mass(body, "m_MASS1.mtx");
+   expect_masses(body);
+   // CalculiX numbers the rows in its .dof file.
+   body.M = {};
+   write_whole("m.dof", "2.2\n2.1\n1.2\n1.1\n");
+   write_whole("m.mas", "1 1 2.\n2 2 2.\n3 3 1.\n4 4 1.\n3 1 .25\n");
+   read_mass(body, "m.mas");
+   expect_masses(body);
+   // MatrixMarket has the rows of the stiffness.
+   body.M = {};
+   const auto at = body.rows();
+   const std::string i = std::to_string(at.at({1, 2}) + 1),
+                     j = std::to_string(at.at({2, 2}) + 1);
+   std::string entries;
+   for (std::size_t row = 0; row < 4; ++row)
+   {
+      const std::string k = std::to_string(row + 1);
+      entries += k + " " + k + " " + std::to_string(body.dofs[row].node) + "\n";
+   }
+   write_whole("n.mtx", "%%MatrixMarket matrix coordinate real symmetric\n4 4 5\n" + entries +
+                           i + " " + j + " .25\n");
+   read_mass(body, "n.mtx");
+   expect_masses(body);
+   // write_npz() writes both.
+   Eigen::MatrixXd dense(body.M);
+   write_npz("n.npz", body, dense);
+   body.M = {};
+   read_mass(body, "n.npz");
+   expect_masses(body);
+   // Each part has its own.
+   body.M.coeffRef(at.at({1, 2}), at.at({2, 2})) = 0;
+   body.M.coeffRef(at.at({2, 2}), at.at({1, 2})) = 0;
+   double sum = 0;
+   for (const NodalStiffness &part : body.parts())
+   {
+      ASSERT_EQ(part.M.rows(), part.K.rows());
+      sum += part.M.sum();
+   }
+   EXPECT_EQ(sum, 6);
+
+   write_whole("n.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 1.\n");
+   expect_input_error([&] { read_mass(body, "n.mtx"); }, "has 1 rows, must have 4");
+   write_whole("m.mas", "1 1 -2.\n2 2 2.\n3 3 1.\n4 4 1.\n");
+   expect_input_error([&] { read_mass(body, "m.mas"); },
+                      "the diagonal of a mass must be positive");
+   write_whole("m_MASS1.mtx", "3,2,3,2,2.\n");
+   expect_input_error([&] { read_mass(body, "m_MASS1.mtx"); },
+                      "which has no row in the stiffness");
+   write_whole("m_MASS1.mtx", "1,1,1,1,1.\n-1,1,-1,1,2.\n");
+   expect_input_error([&] { read_mass(body, "m_MASS1.mtx"); }, "an internal node has a mass");
+   expect_input_error([&] { read_mass(body, "m.sti"); },
+                      "must end with .mas, .mtx, .npy or .npz");
+   write_npz("n.npz", body);
+   expect_input_error([&] { read_mass(body, "n.npz"); }, "its matrix is a stiffness");
+}
+
 TEST_F(Exchange, ADeckAndItsMatrixFindEachOther)
 {
    write_whole("job.inp", "*NODE\n1, 0., 2.\n2, 1., 2.\n");

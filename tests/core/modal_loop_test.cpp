@@ -1,3 +1,6 @@
+#include "half_space_contacts.hpp"
+
+#include <array>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
@@ -343,4 +346,106 @@ TEST(ModalLoop, CattaneoAndMindlin)
    }
    // At small amplitudes the loss grows with the third power, the damping ratio with the first.
    EXPECT_NEAR(std::log(zeta[1] / zeta[0]) / std::log(amplitude[1] / amplitude[0]), 1, 0.15);
+}
+
+namespace
+{
+
+/// The curve of Cattaneo and Mindlin of two spheres of shear modulus 1 and ν = 0 with a = 1:
+/// shifts and, by Masing, the loss of a cycle and the first harmonic of its force.
+struct SpheresInClosedForm
+{
+   double f, P;
+   double most() const { return 0.75 * f * P; }
+   double shift(double s) const { return most() * (1 - std::pow(1 - s, 2.0 / 3)); }
+   /// 8 (∫Q dδ - ½ Q δ) of the first loading.
+   double loss(double s) const
+   {
+      const double c = 1 - s, work = 0.6 - std::pow(c, 2.0 / 3) + 0.4 * std::pow(c, 5.0 / 3);
+      return 8 * (f * P * most() * work - 0.5 * f * P * s * shift(s));
+   }
+   /// ∮ Q cos θ dθ/π with a shift of X cos θ. Unloading from the end is the first curve, twice
+   /// as large.
+   double harmonic(double s) const
+   {
+      const double X = shift(s);
+      const auto first = [&](double d) { return f * P * (1 - std::pow(1 - d / most(), 1.5)); };
+      double sum = 0;
+      const int n = 20000;
+      for (int k = 0; k < n; ++k)
+      {
+         const double theta = pi * (k + 0.5) / n;
+         sum += (f * P * s - 2 * first(0.5 * X * (1 - std::cos(theta)))) * std::cos(theta);
+      }
+      return 2 * sum / n;
+   }
+};
+
+} // namespace
+
+/// A mass 1 between two spheres that are pressed, in three dimensions: the whole curves, and
+/// their powers at small amplitudes, with squares and with triangles.
+TEST(ModalLoop, CattaneoAndMindlinInSpace)
+{
+   const double f = 0.3, P = 4.0 / 3;
+   const Material one = cattaneo_test::of_shear(1, 0);
+   HalfSpace squares = cattaneo_test::contact_of(one, one, 2.2 / 23,
+                                                 cattaneo_test::cells(23, 2.2 / 23, 1.1)),
+             triangles = cattaneo_test::disc_of_triangles(one, one, 10, 1.1);
+   const SpheresInClosedForm closed{f, P};
+   for (const bool square : {true, false})
+   {
+      SCOPED_TRACE(square ? "squares" : "triangles");
+      const HalfSpace &contact = square ? squares : triangles;
+      const VectorXd square_of_r = square ? VectorXd(contact.centres.rowwise().squaredNorm())
+                                          : cattaneo_test::mean_square(contact);
+      ReducedProblem problem = contact.problem(0.5 * square_of_r);
+      set_friction(problem, f);
+      ContactState state = ContactState::virgin(problem);
+      ASSERT_EQ(march(problem, LoadHistory::through(problem, {{}, {{"P", P}}}), state).status,
+                FrictionStatus::converged);
+      FrictionSolver solver(problem);
+      ModalLoopSettings settings;
+      settings.tolerance = 1e-6;
+      settings.march.increments = 16;
+      // Nothing slips: the compliance is 1/2.
+      const ModalLoop small = modal_loop(solver, problem, state, "Q1", 1, 1e-6, settings);
+      EXPECT_NEAR(small.omega, std::sqrt(2.0), 0.01 * std::sqrt(2.0));
+      std::vector<double> sizes, shares{0.3, 0.5, 0.8};
+      for (const double s : shares) { sizes.push_back(closed.shift(s)); }
+      const std::vector<ModalLoop> loops =
+         modal_curve(solver, problem, state, "Q1", small.omega, sizes, settings);
+      std::vector<std::array<double, 3>> logs; // of amplitude, loss and damping ratio
+      for (std::size_t k = 0; k < shares.size(); ++k)
+      {
+         SCOPED_TRACE(shares[k]);
+         const ModalLoop &loop = loops[k];
+         const double X = sizes[k], Q = f * P * shares[k];
+         ASSERT_EQ(loop.status, FrictionStatus::converged) << loop.message;
+         ASSERT_TRUE(loop.steady) << loop.message;
+         EXPECT_NEAR(loop.force, Q, 0.003 * Q);
+         EXPECT_NEAR(loop.omega_secant, std::sqrt(Q / X), 0.003);
+         EXPECT_NEAR(loop.omega, std::sqrt(closed.harmonic(shares[k]) / X), 0.003);
+         // Cells of this size show the ring of slip, of this width.
+         const double cell = square ? 2.2 / 23 : 1.1 / 10, ring = 1 - std::cbrt(1 - shares[k]),
+                      allowed = 0.12 * cell / ring * closed.loss(shares[k]);
+         EXPECT_NEAR(loop.dissipation, closed.loss(shares[k]), allowed);
+         EXPECT_NEAR(loop.area, closed.loss(shares[k]), allowed);
+         EXPECT_NEAR(loop.zeta,
+                     closed.loss(shares[k]) / (2 * pi * closed.harmonic(shares[k]) * X),
+                     1.1 * allowed / (2 * pi * closed.harmonic(shares[k]) * X));
+         EXPECT_LT(loop.omega_error, 0.002 * loop.omega);
+         EXPECT_LT(loop.zeta_error, 0.02 * loop.zeta);
+         logs.push_back(
+            {std::log(loop.amplitude), std::log(loop.dissipation), std::log(loop.zeta)});
+      }
+      // At small amplitudes the loss grows with the third power, the damping ratio with the
+      // first.
+      if (square)
+      {
+         const double way = logs[1][0] - logs[0][0];
+         EXPECT_NEAR((logs[1][1] - logs[0][1]) / way, 3, 0.15);
+         EXPECT_NEAR((logs[1][2] - logs[0][2]) / way, 1, 0.2);
+      }
+   }
 }

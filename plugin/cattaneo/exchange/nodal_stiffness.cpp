@@ -114,6 +114,9 @@ void NodalStiffness::validate() const
            " dofs, must be square and have a dof for each row");
    require(formulation != Formulation::torsion, "stiffness '", name,
            "': its formulation is torsion, must be plane, axisymmetric or space");
+   require(M.rows() == M.cols() && (M.rows() == size || M.rows() == 0), "stiffness '", name,
+           "': its mass M is ", M.rows(), "×", M.cols(), ", must be ", size, "×", size,
+           " as the stiffness");
    rows();
    const double near_axis = axis();
    for (const auto &[node, place] : places)
@@ -649,17 +652,24 @@ NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
       own.places[node] = places.at(node);
       if (formulation == Formulation::space) { own.z[node] = z.at(node); }
    }
-   std::vector<Eigen::Triplet<double>> entries;
-   for (int row : rows)
+   const auto part_of = [&](const Matrix &whole)
    {
-      for (Matrix::InnerIterator entry(K, row); entry; ++entry)
+      std::vector<Eigen::Triplet<double>> entries;
+      for (int row : rows)
       {
-         if (entry.value() == 0) { continue; } // also between bodies, of a dense matrix
-         entries.emplace_back(number[row], number[entry.col()], entry.value());
+         for (Matrix::InnerIterator entry(whole, row); entry; ++entry)
+         {
+            const int column = number[entry.col()];
+            if (entry.value() == 0 || column < 0) { continue; } // between bodies
+            entries.emplace_back(number[row], column, entry.value());
+         }
       }
-   }
-   own.K.resize(rows.size(), rows.size());
-   own.K.setFromTriplets(entries.begin(), entries.end());
+      Matrix made(rows.size(), rows.size());
+      made.setFromTriplets(entries.begin(), entries.end());
+      return made;
+   };
+   own.K = part_of(K);
+   if (M.rows() > 0) { own.M = part_of(M); }
    for (int row : fixed)
    {
       if (number[row] >= 0) { own.fixed.push_back(number[row]); }

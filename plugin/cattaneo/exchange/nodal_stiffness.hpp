@@ -63,6 +63,7 @@ public:
    /// (AssembledBody::eliminated()).
    bool supports_left_out = false;
    Nodes on_springs; ///< from a deck: nodes with springs, which resist motions
+   Matrix M = {};    ///< the mass, with the rows of K; without rows if it is not known
 
    /// Is there a set with this name (in any capitals)?
    bool has_set(const std::string &set) const;

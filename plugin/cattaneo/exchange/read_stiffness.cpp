@@ -20,6 +20,23 @@ namespace
 
 using Matrix = NodalStiffness::Matrix;
 
+/// Which matrix of a body a file has. It is read into NodalStiffness::K.
+enum class Kind
+{
+   stiffness,
+   mass
+};
+
+const char *word(Kind kind)
+{
+   return kind == Kind::stiffness ? "stiffness" : "mass";
+}
+
+bool any_row(int)
+{
+   return true;
+}
+
 std::string dof_name(const NodeDof &dof)
 {
    return "node " + std::to_string(dof.node) + " direction " + std::to_string(dof.direction);
@@ -45,8 +62,10 @@ void require_direction(const LineReader &in, const NodeDof &dof, Formulation for
 // --- Rows of no node ------------------------------------------------------------------------
 
 /// Eliminates internal rows, K_bb - K_bi K_ii⁻¹ K_ib. Of a support only a diagonal of 1 is
-/// left, because the true diagonal is lost: 1e36 was added to it.
-void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::string &file)
+/// left, because the true diagonal is lost: 1e36 was added to it. Internal rows of a mass must
+/// be empty.
+void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::string &file,
+          Kind kind)
 {
    std::vector<int> number(rows.dofs.size(), -1);
    std::array<int, 2> count{};
@@ -69,6 +88,13 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
          const bool inside = rows.dofs[row].node < 0,
                     column_inside = rows.dofs[column].node < 0;
          if (!inside && column_inside) { continue; } // the transpose of K_ib
+         if (inside && kind == Kind::mass)
+         {
+            require(entry.value() == 0, "file '", file,
+                    "': an internal node has a mass, which cannot be eliminated, must have "
+                    "none: use elements without internal nodes");
+            continue;
+         }
          (inside ? column_inside ? ii : ib : bb)
             .emplace_back(number[row], number[column], entry.value());
       }
@@ -76,7 +102,7 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
    Eigen::SparseMatrix<double> K(count[0], count[0]), coupling(count[1], count[0]),
       inner(count[1], count[1]);
    K.setFromTriplets(bb.begin(), bb.end());
-   if (count[1] > 0)
+   if (count[1] > 0 && kind == Kind::stiffness)
    {
       coupling.setFromTriplets(ib.begin(), ib.end());
       inner.setFromTriplets(ii.begin(), ii.end());
@@ -103,7 +129,8 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
 
 /// C3D8I has displacements of its own, which the matrix calls by numbers above those of all
 /// nodes.
-void read_calculix(const std::string &file, const InputDeck &deck, NodalStiffness &rows)
+void read_calculix(const std::string &file, const InputDeck &deck, NodalStiffness &rows,
+                   Kind kind)
 {
    LineReader dofs(std::filesystem::path(file).replace_extension(".dof").string());
    while (dofs.next())
@@ -131,7 +158,8 @@ void read_calculix(const std::string &file, const InputDeck &deck, NodalStiffnes
                  "' has");
       entries.add(row - 1, column - 1, in.number(fields[2], "an entry"));
    }
-   rows.K = entries.matrix(size, file, [&](int row) { return dof_name(rows.dofs[row]); });
+   rows.K = entries.matrix(
+      size, file, [&](int row) { return dof_name(rows.dofs[row]); }, any_row, word(kind));
    bool own = false;
    for (const InputDeck::Element &element : deck.elements)
    {
@@ -142,7 +170,7 @@ void read_calculix(const std::string &file, const InputDeck &deck, NodalStiffnes
    {
       if (rows.places.count(dof.node) == 0) { dof.node = -dof.node; }
    }
-   drop(rows, std::vector<bool>(rows.dofs.size(), false), file);
+   drop(rows, std::vector<bool>(rows.dofs.size(), false), file, kind);
 }
 
 // --- ABAQUS --------------------------------------------------------------------------------
@@ -194,7 +222,8 @@ void require_elements_connect(const NodalStiffness &rows, const InputDeck &deck,
 
 /// Lines of node, direction, node, direction and value (FORMAT=MATRIX INPUT), or of row, column
 /// and value (FORMAT=COORDINATE).
-void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalStiffness &rows)
+void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalStiffness &rows,
+                        Kind kind)
 {
    SymmetricEntries entries;
    std::map<NodeDof, int> number;
@@ -255,9 +284,9 @@ void read_abaqus_sparse(const std::string &file, const InputDeck &deck, NodalSti
    const auto size = static_cast<int>(rows.dofs.size());
    rows.K = entries.matrix(
       size, file, [&](int row) { return dof_name(rows.dofs[row]); },
-      [&](int row) { return rows.dofs[row].node > 0; });
+      [&](int row) { return rows.dofs[row].node > 0; }, word(kind));
    if (count == 3) { require_elements_connect(rows, deck, file); }
-   drop(rows, supported, file);
+   drop(rows, supported, file, kind);
 }
 
 /// *USER ELEMENT: nodes in a comment, directions of the first node and of those from which on
@@ -356,7 +385,7 @@ std::string row_number(int row)
    return "row " + std::to_string(row + 1);
 }
 
-Matrix read_matrix_market(const std::string &file)
+Matrix read_matrix_market(const std::string &file, Kind kind = Kind::stiffness)
 {
    LineReader in(file);
    in.next();
@@ -412,7 +441,7 @@ Matrix read_matrix_market(const std::string &file)
    }
    require(count == stated, "file '", file, "' is cut short: it has ", count, " of ", stated,
            " entries");
-   return entries.matrix(size, file, row_number);
+   return entries.matrix(size, file, row_number, any_row, word(kind));
 }
 
 /// The arrays of an .npz; of an .npy its one, `K`.
@@ -462,7 +491,8 @@ private:
    std::map<std::string, std::string> files_;
 };
 
-Matrix read_numpy(const NumpyArrays &array, const std::string &file)
+Matrix read_numpy(const NumpyArrays &array, const std::string &file,
+                  Kind kind = Kind::stiffness)
 {
    SymmetricEntries entries;
    Eigen::Index size = 0;
@@ -472,9 +502,12 @@ Matrix read_numpy(const NumpyArrays &array, const std::string &file)
               ") is ", value, ", must be finite");
       entries.add(static_cast<int>(i), static_cast<int>(j), value);
    };
-   if (array.has("K"))
+   const char *own = kind == Kind::mass && array.has("M") ? "M" : "K";
+   require(kind == Kind::stiffness || *own == 'M' || !array.has("dofs"), "file '", file,
+           "' has no array 'M', must have one: its matrix is a stiffness");
+   if (array.has(own))
    {
-      const Eigen::MatrixXd K = array("K").matrix(file);
+      const Eigen::MatrixXd K = array(own).matrix(file);
       size = K.rows();
       require(size > 0 && K.cols() == size, "file '", file, "': its matrix is ", size, "×",
               K.cols(), ", must be square");
@@ -512,7 +545,7 @@ Matrix read_numpy(const NumpyArrays &array, const std::string &file)
          }
       }
    }
-   return entries.matrix(static_cast<int>(size), file, row_number);
+   return entries.matrix(static_cast<int>(size), file, row_number, any_row, word(kind));
 }
 
 // --- where nodes are -------------------------------------------------------------------------
@@ -832,29 +865,49 @@ MtxForm form_of(const std::string &file)
    throw InputError("file '" + file + "' is empty, must have a matrix");
 }
 
+/// The file with the places of nodes beside a matrix. ABAQUS calls the matrices of job.inp
+/// job_STIF1.mtx, job_STIF2.mtx, … and job_MASS1.mtx, ….
+std::string places_beside(const std::string &matrix, const char *ending)
+{
+   namespace fs = std::filesystem;
+   const fs::path same = fs::path(matrix).replace_extension(ending);
+   if (fs::exists(same) || fs::path(matrix).extension() != ".mtx") { return same.string(); }
+   const std::string stem = same.stem().string();
+   for (const char *word : {"_STIF", "_MASS"})
+   {
+      const std::size_t mark = upper_case(stem).rfind(word);
+      const bool numbered = mark != std::string::npos && mark + 5 < stem.size() &&
+                            std::all_of(stem.begin() + mark + 5, stem.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
+      if (numbered) { return (same.parent_path() / (stem.substr(0, mark) + ending)).string(); }
+   }
+   return same.string();
+}
+
+/// InputError unless the file is there and its name ends with one of these.
+void require_ending(const char *what, const std::string &file,
+                    const std::vector<std::string> &endings)
+{
+   namespace fs = std::filesystem;
+   const std::string ending = fs::path(file).extension().string();
+   std::string all;
+   for (const std::string &each : endings)
+   {
+      all += (all.empty() ? "" : each == endings.back() ? " or " : ", ") + each;
+   }
+   require(std::find(endings.begin(), endings.end(), ending) != endings.end(), what, " '", file,
+           "' ends with '", ending, "', must end with ", all);
+   require(fs::exists(file), "cannot read file '", file, "': there is no such file");
+}
+
 } // namespace
 
 NodalStiffness read_stiffness(const std::string &matrix, const std::string &places)
 {
-   namespace fs = std::filesystem;
-   const std::string ending = fs::path(matrix).extension().string();
-   require(ending == ".sti" || ending == ".mtx" || ending == ".npy" || ending == ".npz",
-           "stiffness '", matrix, "' ends with '", ending,
-           "', must end with .sti, .mtx, .npy or .npz");
-   require(fs::exists(matrix), "cannot read file '", matrix, "': there is no such file");
+   require_ending("stiffness", matrix, {".sti", ".mtx", ".npy", ".npz"});
+   const std::string ending = std::filesystem::path(matrix).extension().string();
    const auto beside = [&](const char *of)
-   {
-      if (!places.empty()) { return places; }
-      const fs::path same = fs::path(matrix).replace_extension(of);
-      // ABAQUS calls the matrices of job.inp job_STIF1.mtx, job_STIF2.mtx, …
-      std::string stem = same.stem().string();
-      const std::size_t mark = upper_case(stem).rfind("_STIF");
-      const bool numbered = mark != std::string::npos && mark + 5 < stem.size() &&
-                            std::all_of(stem.begin() + mark + 5, stem.end(),
-                                        [](unsigned char c) { return std::isdigit(c) != 0; });
-      if (fs::exists(same) || ending != ".mtx" || !numbered) { return same.string(); }
-      return (same.parent_path() / (stem.substr(0, mark) + of)).string();
-   };
+   { return places.empty() ? places_beside(matrix, of) : places; };
    const MtxForm form = ending == ".mtx" ? form_of(matrix) : MtxForm::matrix_market;
    NodalStiffness result;
    result.name = matrix;
@@ -879,8 +932,11 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
       const std::string deck = beside(".inp");
       InputDeck said = read_input_deck(deck, DeckUse::stiffness);
       take_nodes(said, result);
-      if (ending == ".sti") { read_calculix(matrix, said, result); }
-      else if (form == MtxForm::sparse) { read_abaqus_sparse(matrix, said, result); }
+      if (ending == ".sti") { read_calculix(matrix, said, result, Kind::stiffness); }
+      else if (form == MtxForm::sparse)
+      {
+         read_abaqus_sparse(matrix, said, result, Kind::stiffness);
+      }
       else { read_user_element(matrix, result); }
       // Forces are those of the whole circumference already.
       const bool wedge = ending == ".sti" && result.formulation == Formulation::axisymmetric;
@@ -906,6 +962,56 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    }
    result.validate();
    return result;
+}
+
+void read_mass(NodalStiffness &stiffness, const std::string &file)
+{
+   require_ending("mass", file, {".mas", ".mtx", ".npy", ".npz"});
+   const std::string ending = std::filesystem::path(file).extension().string();
+   const MtxForm form = ending == ".mtx" ? form_of(file) : MtxForm::matrix_market;
+   require(form != MtxForm::user_element, "mass '", file,
+           "' is a user element, must be of *MATRIX GENERATE, MASS, or MatrixMarket");
+   // 1. The matrix, with the rows of its file.
+   NodalStiffness read;
+   if (ending == ".mas" || form == MtxForm::sparse)
+   {
+      InputDeck said = read_input_deck(places_beside(file, ".inp"), DeckUse::stiffness);
+      take_nodes(said, read);
+      if (ending == ".mas") { read_calculix(file, said, read, Kind::mass); }
+      else { read_abaqus_sparse(file, said, read, Kind::mass); }
+      const bool wedge = ending == ".mas" && read.formulation == Formulation::axisymmetric;
+      if (wedge) { read.K *= 180.0; }
+   }
+   else
+   {
+      read.K = ending == ".mtx" ? read_matrix_market(file, Kind::mass)
+                                : read_numpy(NumpyArrays(file), file, Kind::mass);
+      require(read.K.rows() == stiffness.K.rows(), "mass '", file, "' has ", read.K.rows(),
+              " rows, must have ", stiffness.K.rows(), " as the stiffness '", stiffness.name,
+              "'");
+      read.dofs = stiffness.dofs;
+   }
+   // 2. The same entries in the rows of the stiffness.
+   const std::map<NodeDof, int> rows = stiffness.rows();
+   std::vector<int> row_of;
+   for (const NodeDof &dof : read.dofs)
+   {
+      const auto found = rows.find(dof);
+      require(found != rows.end(), "mass '", file, "' has ", dof_name(dof),
+              ", which has no row in the stiffness '", stiffness.name,
+              "', must be of the same body or bodies (read the mass before parts())");
+      row_of.push_back(found->second);
+   }
+   std::vector<Eigen::Triplet<double>> entries;
+   for (int row = 0; row < read.K.rows(); ++row)
+   {
+      for (Matrix::InnerIterator entry(read.K, row); entry; ++entry)
+      {
+         entries.emplace_back(row_of[row], row_of[entry.col()], entry.value());
+      }
+   }
+   stiffness.M.resize(stiffness.K.rows(), stiffness.K.rows());
+   stiffness.M.setFromTriplets(entries.begin(), entries.end());
 }
 
 std::string matrix_of_deck(const std::string &deck)

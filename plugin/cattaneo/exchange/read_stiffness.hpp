@@ -39,6 +39,19 @@ namespace cattaneo
     symmetric, rotations, or a third direction of a plane body. */
 NodalStiffness read_stiffness(const std::string &matrix, const std::string &places = "");
 
+/** Reads the mass of a stiffness from a file into NodalStiffness::M. The end of the name and
+   the first line decide how the file is read, as read_stiffness() has it:
+
+    - `.mas`, of CalculiX' SOLVER=MATRIXSTORAGE, rows from `.dof`, deck in `.inp`
+    - `.mtx`, deck in `.inp`, of the same name or of that before "_MASS1": ABAQUS,
+      *MATRIX GENERATE, MASS
+    - `.mtx` of MatrixMarket, `.npy`, `.npz`: rows in the order of those of the stiffness
+
+    Units are those of the file. To be called before parts(), which takes the mass apart as
+   well. InputError as of read_stiffness(), if the file has a node and direction without a row
+   in the stiffness, if internal nodes have a mass, or if the number of rows is another one. */
+void read_mass(NodalStiffness &stiffness, const std::string &file);
+
 /// The file of the stiffness that a deck "job.inp" writes: "job.sti" of CalculiX, "job.mtx", or
 /// "job_STIF1.mtx" of ABAQUS, beside it. InputError if there is none, or more than one.
 std::string matrix_of_deck(const std::string &deck);

@@ -9,7 +9,7 @@ namespace cattaneo
 SymmetricEntries::Matrix
 SymmetricEntries::matrix(int size, const std::string &file,
                          const std::function<std::string(int)> &row_name,
-                         const std::function<bool(int)> &is_elastic) const
+                         const std::function<bool(int)> &is_elastic, const char *kind) const
 {
    const auto place = [&](int row, int column)
    { return "file '" + file + "': entry (" + row_name(row) + ", " + row_name(column) + ")"; };
@@ -34,8 +34,8 @@ SymmetricEntries::matrix(int size, const std::string &file,
          const auto column = static_cast<int>(e.col());
          if (std::abs(e.value()) <= allowed) { continue; }
          require(false, place(row, column), " is ", K.coeff(row, column),
-                 " and its mirror image ", K.coeff(column, row),
-                 ", the stiffness must be symmetric (one triangle of it, or both)");
+                 " and its mirror image ", K.coeff(column, row), ", the ", kind,
+                 " must be symmetric (one triangle of it, or both)");
       }
    }
    for (int row = 0; row < size; ++row)
@@ -43,8 +43,8 @@ SymmetricEntries::matrix(int size, const std::string &file,
       if (K.coeff(row, row) > 0 || !is_elastic(row)) { continue; }
       // An empty row may be a support that was eliminated, which is checked later.
       if (Matrix(K.row(row)).norm() == 0 && Matrix(mirrored.row(row)).norm() == 0) { continue; }
-      require(false, place(row, row), " is ", K.coeff(row, row),
-              ", the diagonal of a stiffness must be positive");
+      require(false, place(row, row), " is ", K.coeff(row, row), ", the diagonal of a ", kind,
+              " must be positive");
    }
    return twice ? K : Matrix(K + mirrored - Matrix(K.diagonal().asDiagonal()));
 }

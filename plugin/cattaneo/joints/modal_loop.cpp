@@ -80,7 +80,7 @@ double half_range(const std::vector<LoopPoint> &points)
 class Cycles
 {
 public:
-   explicit Cycles(double tolerance) : tolerance_(tolerance) {}
+   Cycles(double tolerance, bool exact) : tolerance_(tolerance), exact_(exact) {}
 
    /// A cycle begins at a state.
    void begin(const ContactState &state, const LoopPoint &point)
@@ -121,12 +121,13 @@ public:
                            : count > 0 && before > 0 ? change / before
                                                      : 1;
       const double left = ratio < 1 ? change * std::max(1.0, ratio / (1 - ratio)) : change;
-      // 3. Work along the loop that is not lost is stored, so the state has changed.
+      // 3. Work along the loop that is not lost is stored, so the state has changed. Increments
+      // also lose the work of pressures on nodes that open or close within them.
       const double round_off =
          1e-12 * std::abs(points[0].force) * half_range(points) +
          1e-13 * to[0].lpNorm<Eigen::Infinity>() * to[1].lpNorm<Eigen::Infinity>();
-      steady = left <= tolerance_ &&
-               std::abs(work_along(points) - loss_) <= tolerance_ * loss_ + round_off;
+      steady = left <= tolerance_ && (!exact_ || std::abs(work_along(points) - loss_) <=
+                                                    tolerance_ * loss_ + round_off);
       // 4. The same displacements are added in each cycle, while forces repeat.
       const VectorXd drift = to[0] - from[0];
       ratchets = !steady && changes[1] <= tolerance_ && changes[0] > 1e-6 &&
@@ -210,7 +211,9 @@ private:
       }
    }
 
-   double tolerance_, loss_ = 0;
+   double tolerance_;
+   bool exact_;
+   double loss_ = 0;
    ContactState begin_;
    Fields least_, most_;
    VectorXd drift_; // of the displacements in the previous cycle
@@ -239,14 +242,15 @@ struct Swing
 class Swings
 {
 public:
+   /// @param increments  of each half of a cycle, if there is no exact path
    Swings(FrictionSolver &solver, const ReducedProblem &problem, Index load,
-          const ModalLoopSettings &settings)
+          const ModalLoopSettings &settings, int increments)
       : solver_(solver), problem_(problem), load_(load), settings_(settings),
         march_(settings.march)
    {
       march_.increments_of_piece.clear();
       march_.every_event = march_.stepping == Stepping::exact && problem_.components() < 2;
-      if (march_.every_event) { march_.increments = 1; }
+      march_.increments = march_.every_event ? 1 : increments;
       march_.keep_increments = false;
       march_.loss_error = false;
       march_.stop_at_steady_state = false;
@@ -260,7 +264,7 @@ public:
                     const std::function<double(double, double)> &off) const
    {
       Swing made;
-      Cycles cycles(settings_.steady_tolerance);
+      Cycles cycles(settings_.steady_tolerance, exact());
       for (bool opens = state.multipliers[load_] != force;; opens = false)
       {
          // 1. March until a cycle repeats, or until the limit of the cycles can be foreseen.
@@ -284,13 +288,13 @@ public:
                   return;
                }
                cycles.add(now, here, record.friction_work);
+               if (std::abs(here.force + force) <= 1e-12 * force) { made.loop.trough = now; }
                if (record.time < start + 2 * record.cycle) { return; }
                cycles.end(now);
                made.rough =
                   !cycles.steady &&
                   cycles.change < 0.02 * std::abs(off(force, half_range(cycles.points)));
-               if (cycles.steady || cycles.ratchets || made.rough ||
-                   (cycles.can_jump && march_.every_event))
+               if (cycles.steady || cycles.ratchets || made.rough || cycles.can_jump)
                {
                   stop = true;
                }
@@ -323,6 +327,8 @@ public:
          cycles.jump(state);
       }
    }
+
+   bool exact() const { return march_.every_event; }
 
    /// The first loading to the force of a loop, for comparison.
    void compare(const ContactState &from, ModalLoop &loop) const
@@ -483,100 +489,204 @@ private:
    int side_ = 0; // of the last loop
 };
 
+/// Loops of one mode about a state, each after those that were not larger.
+class Curve
+{
+public:
+   Curve(FrictionSolver &solver, const ReducedProblem &problem, const ContactState &state,
+         const std::string &load, double omega, const ModalLoopSettings &settings)
+      : solver_(solver), problem_(problem), state_(state),
+        load_(static_cast<Index>(problem.pattern(load))), settings_(settings), omega_(omega),
+        below_(state),
+        // Forces are sought with half of the increments of the result.
+        swings_(solver, problem, load_, settings, std::max(1, settings.march.increments / 2))
+   {
+      require(problem.patterns[load_].control == Control::force, "modal loop: the load '", load,
+              "' prescribes displacements, must be forces");
+      require_positive("modal loop: omega", omega);
+      require(problem.knows_loads(),
+              "modal loop: the response H of the loads is not known, must be");
+      require(settings.cycles >= 2, "modal loop: cycles is ", settings.cycles,
+              ", must be at least 2, because the first cycle is not steady");
+      require(state.multipliers.size() == static_cast<Index>(problem.patterns.size()) &&
+                 state.multipliers[load_] == 0,
+              "modal loop: the state does not have the loads of the problem, or that of '",
+              load, "' is not zero");
+   }
+
+   /// The loop of the next size.
+   ModalLoop loop(double size)
+   {
+      require_positive("modal loop: size", size);
+      if (size_ > 0)
+      {
+         omega_ = std::max(0.5 * secant_, secant_ + slope_ * std::log(size / size_));
+      }
+      const bool by_energy = settings_.size == LoopSize::energy;
+      const double first = by_energy ? omega_ * std::sqrt(2 * size) : omega_ * omega_ * size;
+      ForceSearch search(std::max(first, least_), by_energy ? 0.5 : 1, settings_.tolerance);
+      ModalLoop best;
+      std::string slides;
+      const auto value_of = [&](double force, double half)
+      { return (by_energy ? 0.5 * force * half : half) / size; };
+      const auto off = [&](double force, double half)
+      {
+         const double value = value_of(force, half);
+         // Accepts the largest loop before the joint slides, whatever its size.
+         return std::abs(value - 1) <= settings_.tolerance || slides.size() > 0
+                   ? 0
+                   : std::log(value);
+      };
+      // 1. Loops of more and more suitable forces.
+      for (int count = 0; count < 100 && !search.closed(); ++count)
+      {
+         Swing trial = swings_.to_and_fro(search.force, below_, off);
+         if (!solved(trial.status))
+         {
+            if (trial.status == FrictionStatus::stopped ||
+                trial.status == FrictionStatus::stalled)
+            {
+               best.status = trial.status;
+               best.message = trial.message;
+               return best;
+            }
+            slides = trial.message;
+            search.slides(trial.event_force);
+            continue;
+         }
+         const double value = value_of(trial.loop.force, trial.loop.amplitude);
+         const bool enough = std::abs(value - 1) <= settings_.tolerance,
+                    unsteady = !trial.loop.steady && !trial.rough;
+         if (unsteady && !slides.empty()) { break; } // close below the force at which it slides
+         if (value <= 1 && !unsteady)
+         {
+            below_ = trial.loop.peak;
+            least_ = trial.loop.force;
+         }
+         if (!trial.rough && (value <= 1 || enough || unsteady))
+         {
+            best = std::move(trial.loop);
+            best.status = trial.status;
+            best.message = trial.message;
+         }
+         if (enough || unsteady) { break; }
+         search.found(value);
+      }
+      const double reached = best.force > 0 ? value_of(best.force, best.amplitude) : 0;
+      // 2. Increments are refined, and the first loading is compared.
+      if (!swings_.exact() && best.steady) { refine(best); }
+      if (!solved(best.status)) { return best; }
+      if (best.force > 0) { swings_.compare(state_, best); }
+      // 3. The frequency at which the next size begins, and the outcome.
+      if (best.steady) { foresee(best, size); }
+      if (best.force > 0 && !best.steady) { best.message = why_not_steady(best); }
+      else if (std::abs(reached - 1) > settings_.tolerance)
+      {
+         best.status = std::isnan(search.sliding) ? FrictionStatus::no_solution
+                                                  : FrictionStatus::gross_sliding;
+         best.sliding_force = search.sliding;
+         best.message =
+            std::isnan(search.sliding)
+               ? "no loop of the requested size was found"
+               : "the joint slides as a whole before a loop has this size: " + slides;
+      }
+      return best;
+   }
+
+private:
+   /// The loop is marched again with twice as many increments, until that changes little.
+   void refine(ModalLoop &best) const
+   {
+      int increments = std::max(1, settings_.march.increments / 2);
+      for (int doubled = 0; doubled < 4; ++doubled)
+      {
+         increments *= 2;
+         const Swings finer(solver_, problem_, load_, settings_, increments);
+         Swing found =
+            finer.to_and_fro(best.force, best.peak, [](double, double) { return 0.0; });
+         ModalLoop &loop = found.loop;
+         loop.omega_error = std::abs(loop.omega - best.omega);
+         // Nodes that open or close within increments lose work that is not friction's.
+         const double square = std::pow(loop.omega * loop.amplitude, 2),
+                      other = std::abs(loop.area - loop.dissipation) / (2 * pi * square);
+         loop.zeta_error = std::max(std::abs(loop.zeta - best.zeta), other);
+         loop.status = found.status;
+         loop.message = found.message;
+         loop.cycle += best.cycle;
+         best = std::move(loop);
+         const bool little = best.omega_error <= 0.1 * settings_.increment_error * best.omega &&
+                             best.zeta_error <= settings_.increment_error * best.zeta + 1e-9;
+         if (!solved(best.status) || !best.steady || little) { return; }
+      }
+   }
+
+   /// The secant frequency changes with the logarithm of the size as between the last two.
+   void foresee(const ModalLoop &loop, double size)
+   {
+      const double way = std::log(size / size_);
+      slope_ = size_ > 0 && way > 0 ? (loop.omega_secant - secant_) / way : 0;
+      size_ = size;
+      secant_ = omega_ = loop.omega_secant;
+   }
+
+   static std::string why_not_steady(const ModalLoop &loop)
+   {
+      std::ostringstream message;
+      message << std::setprecision(3);
+      if (loop.ratchet > 0)
+      {
+         message << "the joint ratchets: forces repeat, and each cycle moves node "
+                 << loop.ratchet_node << " on by " << loop.ratchet;
+      }
+      else
+      {
+         message << "not steady after " << loop.cycle
+                 << " cycles, the last one still changed the state by " << loop.change
+                 << " of its range";
+      }
+      return message.str();
+   }
+
+   FrictionSolver &solver_;
+   const ReducedProblem &problem_;
+   const ContactState &state_;
+   Index load_;
+   const ModalLoopSettings &settings_;
+   double omega_;                             // at which the next loop begins
+   double size_ = 0, secant_ = 0, slope_ = 0; // of the last steady loop
+   ContactState below_; // at the end of the largest loop that was not too large
+   double least_ = 0;   // its force
+   Swings swings_;
+};
+
 } // namespace
 
 ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
                      const ContactState &state, const std::string &load, double omega,
                      double size, const ModalLoopSettings &settings)
 {
-   const auto k = static_cast<Index>(problem.pattern(load));
-   require(problem.patterns[k].control == Control::force, "modal loop: the load '", load,
-           "' prescribes displacements, must be forces");
-   require_positive("modal loop: size", size);
-   require_positive("modal loop: omega", omega);
-   require(problem.knows_loads(),
-           "modal loop: the response H of the loads is not known, must be");
-   require(settings.cycles >= 2, "modal loop: cycles is ", settings.cycles,
-           ", must be at least 2, because the first cycle is not steady");
-   require(state.multipliers.size() == static_cast<Index>(problem.patterns.size()) &&
-              state.multipliers[k] == 0,
-           "modal loop: the state does not have the loads of the problem, or that of '", load,
-           "' is not zero");
-   const Swings swings(solver, problem, k, settings);
-   const bool by_energy = settings.size == LoopSize::energy;
-   ForceSearch search(by_energy ? omega * std::sqrt(2 * size) : omega * omega * size,
-                      by_energy ? 0.5 : 1, settings.tolerance);
-   ContactState below = state; // at the end of the largest loop that was not too large
-   ModalLoop best;
-   std::string slides;
-   const auto value_of = [&](double force, double half)
-   { return (by_energy ? 0.5 * force * half : half) / size; };
-   const auto off = [&](double force, double half)
+   return Curve(solver, problem, state, load, omega, settings).loop(size);
+}
+
+std::vector<ModalLoop> modal_curve(FrictionSolver &solver, const ReducedProblem &problem,
+                                   const ContactState &state, const std::string &load,
+                                   double omega, const std::vector<double> &sizes,
+                                   const ModalLoopSettings &settings)
+{
+   Curve curve(solver, problem, state, load, omega, settings);
+   std::vector<ModalLoop> all;
+   for (std::size_t k = 0; k < sizes.size(); ++k)
    {
-      const double value = value_of(force, half);
-      // Accepts the largest loop before the joint slides, whatever its size.
-      return std::abs(value - 1) <= settings.tolerance || slides.size() > 0 ? 0
-                                                                            : std::log(value);
-   };
-   for (int count = 0; count < 100 && !search.closed(); ++count)
-   {
-      Swing trial = swings.to_and_fro(search.force, below, off);
-      if (!solved(trial.status))
+      require(k == 0 || sizes[k] > sizes[k - 1], "modal curve: size ", sizes[k], " follows ",
+              sizes[k == 0 ? 0 : k - 1], ", must be larger");
+      if (k > 0 && std::isfinite(all.back().sliding_force))
       {
-         if (trial.status == FrictionStatus::stopped || trial.status == FrictionStatus::stalled)
-         {
-            best.status = trial.status;
-            best.message = trial.message;
-            return best;
-         }
-         slides = trial.message;
-         search.slides(trial.event_force);
+         all.push_back(all.back());
          continue;
       }
-      const double value = value_of(trial.loop.force, trial.loop.amplitude);
-      const bool enough = std::abs(value - 1) <= settings.tolerance,
-                 unsteady = !trial.loop.steady && !trial.rough;
-      if (unsteady && !slides.empty()) { break; } // close below the force at which it slides
-      if (value <= 1) { below = trial.loop.peak; }
-      if (!trial.rough && (value <= 1 || enough || unsteady))
-      {
-         best = std::move(trial.loop);
-         best.status = trial.status;
-         best.message = trial.message;
-      }
-      if (enough || unsteady) { break; }
-      search.found(value);
+      all.push_back(curve.loop(sizes[k]));
    }
-   if (best.force > 0) { swings.compare(state, best); }
-   const double reached =
-      best.force > 0 ? (by_energy ? best.energy : best.amplitude) / size : 0;
-   if (best.force > 0 && !best.steady)
-   {
-      std::ostringstream message;
-      message << std::setprecision(3);
-      if (best.ratchet > 0)
-      {
-         message << "the joint ratchets: forces repeat, and each cycle moves node "
-                 << best.ratchet_node << " on by " << best.ratchet;
-      }
-      else
-      {
-         message << "not steady after " << best.cycle
-                 << " cycles, the last one still changed the state by " << best.change
-                 << " of its range";
-      }
-      best.message = message.str();
-   }
-   else if (std::abs(reached - 1) > settings.tolerance)
-   {
-      best.status = std::isnan(search.sliding) ? FrictionStatus::no_solution
-                                               : FrictionStatus::gross_sliding;
-      best.sliding_force = search.sliding;
-      best.message = std::isnan(search.sliding)
-                        ? "no loop of the requested size was found"
-                        : "the joint slides as a whole before a loop has this size: " + slides;
-   }
-   return best;
+   return all;
 }
 
 } // namespace cattaneo

@@ -17,7 +17,9 @@ enum class LoopSize
 /// How modal loops are marched. The defaults need no tuning.
 struct ModalLoopSettings
 {
-   MarchSettings march;                 ///< its increments are stops of the exact path
+   /// Its increments are those of each half of a cycle, to begin with, if there is no exact
+   /// path.
+   MarchSettings march;
    LoopSize size = LoopSize::amplitude; ///< what the size of a loop is
    int cycles = 200;                    ///< marched at most until a loop is steady
    /// A loop is steady if a cycle ends in the state in which it began: displacements and forces
@@ -25,6 +27,9 @@ struct ModalLoopSettings
    /// counted), and ∮ α dq by this share of the loss.
    double steady_tolerance = 1e-9;
    double tolerance = 1e-9; ///< of the size that is asked for, relative
+   /// Where the march takes increments, they are doubled, at most three times, until that
+   /// changes zeta by less than this share of it, and omega by less than a tenth of this share.
+   double increment_error = 0.02;
 };
 
 /// A point of a loop.
@@ -55,7 +60,11 @@ struct ModalLoop
    /// By the first harmonic, ω₁² = ∮ α cos θ dθ/(π q) where q moves as q cos θ: closer to a
    /// vibration.
    double omega = 0;
-   double zeta = 0;        ///< D/(2π ω₁² q²)
+   double zeta = 0; ///< D/(2π ω₁² q²)
+   /// Estimates of the errors of omega and zeta because the march takes increments: how much
+   /// they differ from those by half as many. 0 on an exact path.
+   double omega_error = 0;
+   double zeta_error = 0;  ///< see omega_error
    double dissipation = 0; ///< D, lost by friction in the cycle
    /// ∮ α dq by trapezoids, which is D to round-off.
    double area = 0;
@@ -78,6 +87,7 @@ struct ModalLoop
 
    std::vector<LoopPoint> points; ///< of the steady cycle, its changes of state among them
    ContactState peak;             ///< the state at the largest force of the steady cycle
+   ContactState trough;           ///< likewise at the least force
 };
 
 /** The steady loop of a mode, of a stated size.
@@ -103,5 +113,17 @@ struct ModalLoop
 ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
                      const ContactState &state, const std::string &load, double omega,
                      double size, const ModalLoopSettings &settings = {});
+
+/** Loops of one mode with several sizes, from the smallest on, as modal_loop() finds them. Each
+    begins at the steady loop of the size before, so that shear which the assembly has left is
+    relieved only once. Sizes beyond one at which the joint slides get the loop of that one,
+   with its sliding_force.
+
+   @param sizes  increasing
+    InputError as of modal_loop(), and if sizes do not increase. */
+std::vector<ModalLoop> modal_curve(FrictionSolver &solver, const ReducedProblem &problem,
+                                   const ContactState &state, const std::string &load,
+                                   double omega, const std::vector<double> &sizes,
+                                   const ModalLoopSettings &settings = {});
 
 } // namespace cattaneo

@@ -49,6 +49,17 @@ std::string name_of_mode(Index k)
    return "mode " + std::to_string(k + 1);
 }
 
+/// Supports that the program which wrote K has eliminated are fixed, as condense() has them.
+void hold_eliminated_rows(AssembledBody &body)
+{
+   if (!body.grounded) { return; }
+   const std::vector<int> rows = body.eliminated();
+   std::vector<int> all;
+   std::set_union(body.fixed.begin(), body.fixed.end(), rows.begin(), rows.end(),
+                  std::back_inserter(all));
+   body.fixed = std::move(all);
+}
+
 /// Round-off of a quadratic form xᵀ A x, by the sizes of its terms.
 bool is_round_off(const RowMatrix &A, const VectorXd &x, double value)
 {
@@ -127,11 +138,11 @@ public:
         factor_(view_of(parts.K), keep_, 0, 0.0)
    {
    }
-   /// Displacements of all coordinates; those at rest are 0.
-   VectorXd solve(const VectorXd &forces) const
+   /// Displacements of all coordinates, one column for each of the forces; those at rest are 0.
+   MatrixXd solve(const MatrixXd &forces) const
    {
-      VectorXd x = VectorXd::Zero(parts_.K.rows());
-      x(keep_) = factor_.solve(MatrixXd(forces(keep_))).col(0);
+      MatrixXd x = MatrixXd::Zero(parts_.K.rows(), forces.cols());
+      x(keep_, Eigen::all) = factor_.solve(MatrixXd(forces(keep_, Eigen::all)));
       return x;
    }
 
@@ -297,6 +308,7 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
               "vibration: body ", b, " has a stiffness of ", body.K.size(),
               " rows and a mass of ", parts.bodies[b].M.size(),
               ", must be as many and more than none");
+      hold_eliminated_rows(parts.bodies[b].body);
       parts.thickness.push_back(reduction.bodies[b].thickness);
       std::vector<bool> taken(body.K.size(), false);
       for (int dof : body.fixed) { taken[dof] = true; }
@@ -330,9 +342,12 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
    }
    for (const int place : contact.tied) { rest[own + place] = false; }
    // Components of the contact that supports hold have no motion.
-   const VectorXd diagonal = parts.M.diagonal();
+   const VectorXd diagonal = parts.M.diagonal(), stiff = parts.K.diagonal();
    for (int c = 0; c < columns; ++c)
    {
+      require(diagonal[c] > 0 || stiff[c] == 0,
+              "vibration: a dof that is not held has a stiffness but a mass of ", diagonal[c],
+              ", must be positive");
       if (rest[c] && diagonal[c] > 0) { parts.rest.push_back(c); }
    }
 }
@@ -524,6 +539,96 @@ ContactState VibratingStructure::with_modes(const Modes &modes, ContactState sta
       state.loads.push_back(name_of_mode(k));
    }
    return state;
+}
+
+CraigBampton VibratingStructure::craig_bampton(int count, double most,
+                                               const std::vector<OutputDof> &outputs) const
+{
+   const Parts &parts = *parts_;
+   // 1. Modes with all relative displacements held, after the motions that nothing resists.
+   const Modes held = modes(GluedRows(parts.relative.size(), true), count);
+   const Index rigid = held.rigid,
+               kept = std::count_if(held.omega.begin(), held.omega.end(),
+                                    [&](double omega) { return omega <= most; });
+   CraigBampton made;
+   made.omega = VectorXd::Zero(rigid + kept);
+   made.omega.tail(kept) = held.omega.head(kept);
+   MatrixXd shapes(parts.K.rows(), rigid + kept);
+   shapes << held.rigid_coordinates, held.coordinates.leftCols(kept);
+   std::vector<int> contact; // coordinates
+   for (std::size_t row = 0; row < parts.relative.size(); ++row)
+   {
+      if (parts.relative[row] < 0) { continue; }
+      made.rows.push_back(static_cast<Index>(row));
+      contact.push_back(parts.relative[row]);
+   }
+   const auto first = static_cast<Index>(contact.size());
+   const Index size = first + made.omega.size();
+   made.K = MatrixXd::Zero(size, size);
+   made.M = MatrixXd::Identity(size, size); // of the modes among each other
+   made.K.diagonal().tail(made.omega.size()) = made.omega.cwiseAbs2();
+
+   // 2. Forces on all coordinates do work with a unit of each coordinate of the contact, at
+   // which the others follow without forces, x_r = -K_rr⁻¹ K_rc, and with the modes.
+   const Parts::Answer answer(parts, held.rigid_coordinates);
+   const auto on_kept = [&](const MatrixXd &forces)
+   {
+      MatrixXd all(size, forces.cols());
+      const MatrixXd following = parts.K * answer.solve(forces);
+      all.topRows(first) = forces(contact, Eigen::all) - following(contact, Eigen::all);
+      all.bottomRows(size - first) = shapes.transpose() * forces;
+      return all;
+   };
+   // 3. Columns of K and M, some at a time, because the displacements of all dofs for all of
+   // them would not fit into memory.
+   constexpr Index at_once = 64;
+   for (Index begin = 0; begin < first; begin += at_once)
+   {
+      const Index columns = std::min(at_once, first - begin);
+      MatrixXd x = MatrixXd::Zero(parts.K.rows(), columns);
+      for (Index k = 0; k < columns; ++k) { x(contact[begin + k], k) = 1; }
+      x -= answer.solve(parts.K * x);
+      const MatrixXd force = parts.K * x;
+      made.K.block(0, begin, first, columns) = force(contact, Eigen::all);
+      const MatrixXd inertia = on_kept(parts.M * x);
+      made.M.block(0, begin, size, columns) = inertia;
+      made.M.block(begin, first, columns, size - first) =
+         inertia.bottomRows(size - first).transpose();
+   }
+   made.K = MatrixXd(0.5 * (made.K + made.K.transpose()));
+   made.M = MatrixXd(0.5 * (made.M + made.M.transpose()));
+
+   // 4. Loads, and displacements of outputs.
+   for (const LoadPattern &pattern : reduction_.problem.patterns)
+   {
+      std::vector<VectorXd> forces;
+      bool found = false;
+      for (std::size_t b = 0; b < parts.bodies.size(); ++b)
+      {
+         forces.emplace_back(VectorXd::Zero(parts.bodies[b].body.K.size()));
+         for (const BodyLoad &load : parts.bodies[b].body.loads)
+         {
+            if (load.name != pattern.name || load.control != Control::force) { continue; }
+            forces.back() += parts.thickness[b] * load.values;
+            found = true;
+         }
+      }
+      if (!found) { continue; }
+      made.loads.push_back(pattern.name);
+      made.F.conservativeResize(size, static_cast<Index>(made.loads.size()));
+      made.F.rightCols(1) = on_kept(parts.on_coordinates(forces));
+   }
+   made.R.resize(static_cast<Index>(outputs.size()), size);
+   for (std::size_t k = 0; k < outputs.size(); ++k)
+   {
+      const auto [b, dof] = outputs[k];
+      require(b >= 0 && b < static_cast<int>(parts.bodies.size()) && dof >= 0 &&
+                 dof < parts.motions[b].rows(),
+              "output ", k, " is dof ", dof, " of body ", b, ", must be one of a body");
+      const VectorXd row = parts.motions[b].row(dof).transpose();
+      made.R.row(static_cast<Index>(k)) = on_kept(row).transpose();
+   }
+   return made;
 }
 
 } // namespace cattaneo

@@ -3,6 +3,7 @@
 #include <cattaneo/condense/assembled_body.hpp>
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/joints/bolts.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -47,6 +48,29 @@ struct Modes
    Eigen::MatrixXd rigid_coordinates; ///< likewise
 };
 
+/// A place where a displacement is wanted: a dof of a body.
+struct OutputDof
+{
+   int body = 0; ///< its number
+   int dof = 0;  ///< of its stiffness
+};
+
+/** A joint for programs of dynamics, by the method of Hurty, Craig and Bampton: M ẍ + K x = F ℓ
+   + forces of the contact, with x the relative displacements {v; w} that are not held, and then
+    amplitudes of modes with all relative displacements held at 0. K has no contact stiffness:
+    the contact is in the forces, {q; p} on the rows of {v; w}. */
+struct CraigBampton
+{
+   Eigen::MatrixXd K, M;           ///< symmetric
+   std::vector<Eigen::Index> rows; ///< of {v; w}, of the first coordinates
+   /// Circular frequencies of the modes, of the other coordinates. The first are 0: motions
+   /// that nothing resists.
+   Eigen::VectorXd omega;
+   std::vector<std::string> loads; ///< names of the loads of forces
+   Eigen::MatrixXd F;              ///< coordinates × loads: forces per unit multiplier
+   Eigen::MatrixXd R;              ///< outputs × coordinates: displacements
+};
+
 /** The bodies of a joint in one system of coordinates: the displacements of dofs beyond the
     contact, those of the contact nodes, and the relative displacements of the problem.
    Stiffness and mass are sparse, and springs of bolts are in the stiffness. */
@@ -80,6 +104,16 @@ public:
    ReducedProblem with_modes(const Modes &modes) const;
    /// The state in the problem with modes: their multipliers are 0.
    ContactState with_modes(const Modes &modes, ContactState state) const;
+
+   /** The condensed stiffness and mass of the relative displacements of the contact and of the
+       lowest modes with all of them held.
+       @param count    largest number of modes besides motions that nothing resists, at least 1
+       @param most     largest circular frequency of these modes
+       @param outputs  rows of CraigBampton::R
+       Displacements that loads prescribe are 0. Costs two solves for each row of the contact.
+       InputError as of modes(), or for an output that is no dof. */
+   CraigBampton craig_bampton(int count, double most = std::numeric_limits<double>::infinity(),
+                              const std::vector<OutputDof> &outputs = {}) const;
 
 private:
    struct Parts;

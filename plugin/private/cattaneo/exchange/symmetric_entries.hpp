@@ -20,10 +20,11 @@ public:
    /** The whole matrix. InputError if an entry is listed twice, if an entry and its mirror
        image are both there and differ by more than 1e-10 of the largest, or if a row (one that
        `is_elastic`) has no positive diagonal. The sentence begins with `file`, and names rows
-       by `row_name`. */
+       by `row_name`, and the matrix by `kind`. */
    Matrix matrix(
       int size, const std::string &file, const std::function<std::string(int)> &row_name,
-      const std::function<bool(int)> &is_elastic = [](int) { return true; }) const;
+      const std::function<bool(int)> &is_elastic = [](int) { return true; },
+      const char *kind = "stiffness") const;
 
 private:
    std::vector<Eigen::Triplet<double>> entries_;

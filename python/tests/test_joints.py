@@ -1,0 +1,236 @@
+"""Vibration of joints: masses of other programs, modes, loops in space, and joints for programs of dynamics."""
+
+import shutil
+import subprocess
+
+import cattaneo
+import numpy as np
+import pytest
+from cattaneo import joints
+from conftest import ROOT
+from scipy.io import loadmat
+from scipy.linalg import eigh
+from scipy.sparse import coo_array
+
+CORNERS = [0, 3, 6, 2, 1, 5, 7, 4]  # scikit-fem's corners of a hexahedron, one side after the other
+DENSITY = 0.7
+
+
+def block(x, y, z, name="body"):
+    """Hexahedra between planes at these places, with their mass."""
+    skfem = pytest.importorskip("skfem")
+    from skfem.helpers import dot
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    mesh = skfem.MeshHex.init_tensor(np.asarray(x, float), np.asarray(y, float), np.asarray(z, float))
+    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementHex1()), intorder=2)
+    K = linear_elasticity(*lame_parameters(2.0, 0.3)).assemble(basis)
+    M = skfem.BilinearForm(lambda u, v, w: DENSITY * dot(u, v)).assemble(basis)
+    return cattaneo.NodalStiffness(K, mesh.p.T, elements=mesh.t[CORNERS].T, M=M, name=name)
+
+
+class Column:
+    """Two blocks, one on the other at y = 1, that friction holds together: [0, 1] x [0, 2.5] x [0, 0.8]."""
+
+    X, LOW, HIGH, Z = np.linspace(0, 1, 4), np.linspace(0, 1, 4), np.linspace(1, 2.5, 5), np.linspace(0, 0.8, 3)
+
+    def __init__(self, held, friction=0.8, pressure=1e-3):
+        self.bodies = [block(self.X, self.HIGH, self.Z, "upper"), block(self.X, self.LOW, self.Z, "lower")]
+        upper, lower = self.bodies
+        upper.add_traction("P", upper.places[:, 1] == 2.5, (0, -pressure, 0))
+        if held:
+            lower.fix(lower.places[:, 1] == 0, "xyz")
+        else:
+            lower.add_traction("P", lower.places[:, 1] == 0, (0, pressure, 0))
+        self.reduction = cattaneo.reduce(*(cattaneo.condense(body, body.contact_surface(body.places[:, 1] == 1)) for body in self.bodies))
+        self.problem = self.reduction.problem
+        self.problem.friction = friction
+        self.state = cattaneo.march(self.problem, [{}, {"P": 1}]).state
+        self.structure = joints.VibratingStructure(self.reduction, self.bodies)
+
+
+def free(body):
+    rows = np.ones(body.K.shape[0], bool)
+    rows[body.fixed] = False
+    return rows
+
+
+def squares_of_one(held):
+    """Eigenvalues of both blocks as one, by a dense method."""
+    one = block(Column.X, np.r_[Column.LOW, Column.HIGH[1:]], Column.Z)
+    if held:
+        one.fix(one.places[:, 1] == 0, "xyz")
+    rows = free(one)
+    return eigh(one.K.toarray()[np.ix_(rows, rows)], one.M.toarray()[np.ix_(rows, rows)], eigvals_only=True)
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_glued_blocks_vibrate_as_one(held):
+    column = Column(held)
+    modes = column.structure.modes(column.problem, column.state, 5)
+    rigid = 0 if held else 6
+    assert modes.rigid == rigid
+    assert modes.omega**2 == pytest.approx(squares_of_one(held)[rigid : rigid + 5], rel=1e-8)
+    assert column.structure.mass == pytest.approx(DENSITY * 2.5 * 0.8)
+    for i in range(5):
+        for j in range(i + 1):
+            product = sum(a @ (body.M @ b) for a, b, body in zip(modes.shapes[i], modes.shapes[j], column.bodies))
+            assert product == pytest.approx(float(i == j), abs=1e-9)
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_a_loop_without_slip_has_the_frequency_of_the_mode(held):
+    column = Column(held)
+    modes = column.structure.modes(column.problem, column.state, 3)
+    problem, state = column.structure.with_modes(modes), column.structure.with_modes(modes, column.state)
+    for k, omega in enumerate(modes.omega):
+        [loop] = joints.modal_curve(problem, state, f"mode {k + 1}", omega, [1e-7], increments=4)
+        assert loop.steady and loop.omega == pytest.approx(omega, rel=1e-6) and loop.zeta < 1e-9
+
+
+def test_errors_of_increments_are_within_their_estimates():
+    """A loop with slip is softer and loses work. Eight times as many increments agree within the errors of both."""
+    column = Column(True, friction=0.3)
+    modes = column.structure.modes(column.problem, column.state, 1)
+    problem, state = column.structure.with_modes(modes), column.structure.with_modes(modes, column.state)
+    [loop] = joints.modal_curve(problem, state, "mode 1", modes.omega[0], [5e-3], tolerance=1e-3, increments=8)
+    assert loop.steady and loop.omega < 0.995 * modes.omega[0] and loop.zeta > 1e-4
+    assert loop.omega_error < 0.002 * loop.omega and loop.zeta_error <= 0.02 * loop.zeta
+    square = 2 * np.pi * (loop.omega * loop.amplitude) ** 2
+    assert loop.zeta == pytest.approx(loop.dissipation / square)
+    assert loop.area == pytest.approx(loop.dissipation, abs=square * loop.zeta_error)
+    assert loop.node_dissipation.sum() == pytest.approx(loop.dissipation)
+    [finer] = joints.modal_curve(problem, state, "mode 1", modes.omega[0], [loop.amplitude], tolerance=1e-6, increments=64)
+    assert finer.omega == pytest.approx(loop.omega, abs=loop.omega_error + finer.omega_error)
+    assert finer.zeta == pytest.approx(loop.zeta, abs=loop.zeta_error + finer.zeta_error)
+
+
+def test_bodies_without_a_mass_are_refused():
+    column = Column(True)
+    bare = [cattaneo.NodalStiffness(body.K, body.places) for body in column.bodies]
+    with pytest.raises(cattaneo.InputError, match="has no mass, must have one"):
+        joints.VibratingStructure(column.reduction, bare)
+    with pytest.raises(cattaneo.InputError, match="must be that of K"):
+        bare[0].M = np.eye(3)
+    skew = column.bodies[0].M.toarray()
+    skew[0, 1] += 1
+    with pytest.raises(cattaneo.InputError, match="M is not symmetric"):
+        bare[0].M = skew
+
+
+def test_masses_of_calculix(tmp_path):
+    """The upper lap, 2 by 0.5 mm, is free and has its whole mass in the .mas that ccx writes."""
+    if shutil.which("ccx") is None:
+        pytest.skip("there is no ccx (Debian: calculix-ccx)")
+    shutil.copy(ROOT / "meshes" / "calculix" / "laps.inp", tmp_path)
+    subprocess.run(["ccx", "laps"], cwd=tmp_path, check=True, capture_output=True, timeout=100)
+    laps = cattaneo.read_stiffness(tmp_path / "laps.sti", mass=tmp_path / "laps.mas")
+    assert laps.M.shape == laps.K.shape
+    [upper] = [part for part in laps.parts() if not len(part.fixed) and not part.supports_left_out]
+    along = np.zeros(upper.K.shape[0])
+    along[upper.dofs[:, 0]] = 1
+    assert along @ (upper.M @ along) == pytest.approx(7.8e-9 * 2 * 0.5, rel=1e-6)
+
+
+def test_craig_bampton_tends_to_the_whole_structure_from_above():
+    """Nothing joins the blocks: the upper one is free, the lower one held."""
+    column = Column(True)
+    exact = []
+    for body in column.bodies:
+        rows = free(body)
+        exact.extend(eigh(body.K.toarray()[np.ix_(rows, rows)], body.M.toarray()[np.ix_(rows, rows)], eigvals_only=True))
+    exact = np.sort(exact)[6:14]
+    before = np.full(8, np.inf)
+    errors = []
+    for count in (4, 12, 36):
+        made = column.structure.craig_bampton(count)
+        size = len(made.rows) + count
+        assert made.K.shape == made.M.shape == (size, size) and len(made.omega) == count
+        found = eigh(made.K, made.M, eigvals_only=True)[6:14]
+        assert np.all(found >= exact * (1 - 1e-9)) and np.all(found <= before * (1 + 1e-9))
+        before = found
+        errors.append(np.abs(found / exact - 1).max())
+    assert errors[2] < 1e-2 * errors[0] or errors[2] < 1e-4
+    # Glued, they are the modes with closed nodes glued.
+    glued = slice(len(made.rows), None)
+    modes = column.structure.modes(column.problem, column.state, 4)
+    assert eigh(made.K[glued, glued], made.M[glued, glued], eigvals_only=True)[:4] == pytest.approx(modes.omega**2, rel=1e-9)
+    # A largest frequency leaves out the others.
+    few = column.structure.craig_bampton(36, most=1.0001 * made.omega[9])
+    assert few.omega == pytest.approx(made.omega[:10])
+    # The stiffness of the relative displacements is that of the problem, as are its loads.
+    contact = slice(0, len(made.rows))
+    K = column.problem.K[np.ix_(made.rows, made.rows)]
+    assert made.K[contact, contact] == pytest.approx(K, abs=1e-9 * np.abs(K).max())
+    load = column.problem.patterns[0]
+    assert made.loads == ["P"]
+    assert made.F[contact, 0] == pytest.approx(-np.r_[load.q, load.p][made.rows], abs=1e-9)
+
+
+def test_free_structures_keep_their_rigid_motions():
+    made = Column(False).structure.craig_bampton(5)
+    assert len(made.omega) == 11 and not made.omega[:6].any()
+    # Two blocks apart have twelve.
+    values = eigh(made.K, made.M, eigvals_only=True)
+    assert np.abs(values[:12]).max() < 1e-8 * values[12]
+
+
+def test_outputs_move_as_the_structure_does():
+    """Statically, and without contact forces, a load moves outputs as it moves the held body by its own stiffness."""
+    column = Column(True)
+    lower = column.bodies[1]
+    top = np.flatnonzero((lower.places == (1, 1 / 3, 0.8)).all(axis=1) | (np.abs(lower.places - (1, 1 / 3, 0.8)).max(axis=1) < 1e-9))
+    dof = int(lower.dofs[top[0], 0])
+    made = column.structure.craig_bampton(4, outputs=[(1, dof)])
+    u = np.zeros(made.K.shape[0])
+    u[: len(made.rows)] = np.sin(np.arange(len(made.rows)))
+    # Relative displacements of all nodes: the body below follows without other forces.
+    state = cattaneo.ContactState.with_slip(column.problem, np.zeros(column.problem.components * column.problem.nodes))
+    whole = np.zeros(3 * column.problem.nodes)
+    whole[made.rows] = u[: len(made.rows)]
+    n = column.problem.nodes
+    state = cattaneo.ContactState.with_slip(column.problem, whole[: 2 * n])
+    u[: len(made.rows)][np.asarray(made.rows) >= 2 * n] = 0
+    moved = column.reduction.displacement(1, state)
+    assert (made.R @ u)[0] == pytest.approx(moved[dof], rel=1e-8)
+    with pytest.raises(cattaneo.InputError, match="must be one of a body"):
+        column.structure.craig_bampton(4, outputs=[(2, 0)])
+
+
+def test_programs_of_dynamics_read_what_is_written(tmp_path):
+    """As tmdsimpy's example of the Brake-Reuss beam reads its .mat: with stiff contact it has the glued frequencies."""
+    column = Column(True)
+    modes = column.structure.modes(column.problem, column.state, 3)
+    made = column.structure.craig_bampton(40, outputs=[(0, 0), (0, 1), (0, 2)])
+    joints.write_dynamics(tmp_path / "joint.mat", made, column.problem, {"P": 2.0})
+    read = loadmat(tmp_path / "joint.mat")
+    M, K, L, Fv, R = (read[name] for name in ("M", "K", "L", "Fv", "R"))
+    Qm, Tm = np.array(read["Qm"].todense()), np.array(read["Tm"].todense())
+    Nnl, nodes = Qm.shape
+    assert (Nnl, nodes) == (column.problem.nodes, column.problem.nodes) and M.shape == K.shape
+    assert Tm.sum() == pytest.approx(0.8)  # the area
+    QL = np.kron(Qm, np.eye(3)) @ L[: 3 * nodes, :]
+    LTT = L[: 3 * nodes, :].T @ np.kron(Tm, np.eye(3))
+    assert QL.shape == LTT.T.shape == (3 * nodes, M.shape[0])
+    assert Fv[:, 0] == pytest.approx(2 * made.F[:, 0]) and R[2, :] == pytest.approx(made.R[2])
+    stiff = np.zeros((L.shape[0], L.shape[0]))
+    stiff[: 3 * nodes, : 3 * nodes] = np.kron(Tm @ (1e7 * Qm), np.eye(3))
+    found = eigh(K + L.T @ stiff @ L, M, eigvals_only=True)[:3]
+    assert found == pytest.approx(modes.omega**2, rel=1e-5)
+    # Forces that close the gap press.
+    u = np.zeros(M.shape[0])
+    u[list(made.rows).index(2 * nodes)] = -1
+    assert (L @ u)[2] == 1 and np.count_nonzero(L @ u) == 1
+
+    joints.write_dynamics(tmp_path / "joint.npz", made, column.problem)
+    with np.load(tmp_path / "joint.npz") as stored:
+        assert np.array_equal(stored["K"], made.K) and list(stored["loads"]) == ["P"] and not stored["Fv"].any()
+    # As NLvib-py reads matrices: 'row column value' from 1.
+    joints.write_dynamics(tmp_path / "joint.txt", made, column.problem)
+    i, j, value = np.loadtxt(tmp_path / "joint_M.txt").T
+    again = coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=M.shape).toarray()
+    assert np.array_equal(again, made.M)
+    with pytest.raises(cattaneo.InputError, match="preload names 'Q', must be one of P"):
+        joints.write_dynamics(tmp_path / "joint.mat", made, column.problem, {"Q": 1})
+    with pytest.raises(cattaneo.InputError, match="must end with .mat, .npz or .txt"):
+        joints.write_dynamics(tmp_path / "joint.xls", made, column.problem)
