@@ -171,18 +171,35 @@ void wear_contact(Study &study)
    WearState state = WearState::virgin(problem);
    if (!load_state.empty()) { state = load_wear_state(load_state); }
    const VectorXd x = problem.arc_length.array() - scene.middle;
-   Panel &profiles = study.lines("profile", "Worn depth", "x", "depth");
-   Panel &pressures = study.lines("pressure", "Pressure", "x", "p");
-   Panel &borders = study.lines("stick", "Stick zone", "cycles", "x");
-   Panel &loops =
-      study.lines("loops", "Loads over their displacements", "displacement", "force");
-   ResultTable &table = study.table("cycles", {{"cycle", "cycle", "%.0f"},
-                                               {"volume", "volume", "%.6g"},
-                                               {"depth", "depth", "%.6g"},
-                                               {"dissipation", "energy lost", "%.6g"},
-                                               {"loss", "of the cycle", "%.4g"},
-                                               {"stick", "stick", "%.5g"}});
-   table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}}, "volume");
+   // The pad's units. A saved problem has its own.
+   const auto in = [&](const char *unit)
+   { return file.empty() ? std::string(" [") + unit + "]" : ""; };
+   const std::string place = (file.empty() ? "x" : "arc length") + in("a");
+   Panel &profiles = study.lines("profile", "Worn depth", place, "depth" + in("a²/R"));
+   Panel &pressures = study.lines("pressure", "Pressure", place, "p" + in("P/a"));
+   Panel &borders = study.lines("stick", "Ends of the stick zone", "cycles", place);
+   Panel &loops = study.lines("loops", "Force over displacement", "displacement" + in("a²/R"),
+                              "force" + in("P"));
+   ResultTable &table =
+      study.table("cycles", {{"cycle", "cycle", "%.0f"},
+                             {"volume", "worn volume" + in("a³/R"), "%.6g"},
+                             {"depth", "depth" + in("a²/R"), "%.6g"},
+                             {"dissipation", "energy lost so far" + in("P a²/R"), "%.6g"},
+                             {"loss", "in the cycle", "%.4g"},
+                             {"stick", "stick half-width" + in("a"), "%.5g"}});
+   table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}},
+              "worn volume" + in("a³/R"));
+   study.lead = {
+      {"sentence",
+       told(
+          file.empty()
+             ? "Units: a is the half-width of contact of a parabola 1/R under P, forces are "
+               "per thickness. "
+             : "",
+          "Cycle 0 is the loading before the first cycle. All cycles are marched, unless "
+          "jumps over cycles are reported. The table has the first cycles, and a row whenever "
+          "their number has grown by a quarter.")},
+      {"rows", nlohmann::ordered_json::array()}};
    std::vector<double> times, from, to;
    double drawn_at = 0, last_row = none;
    const auto add_row = [&](const WearState &now, const WearRecord &record)
@@ -234,15 +251,17 @@ void wear_contact(Study &study)
    study.results["jumps"] = report.jumps;
    study.results["steady_cycle"] = report.steady_cycle;
    study.results["implicit_cycles"] = report.implicit_cycles;
+   const auto unit = [&](const char *name) { return file.empty() ? name : ""; };
    study.value("volume", worn_volume(problem, state.depth), "worn volume at the last cycle",
-               none);
+               none, unit("a³/R"));
    // Without an estimate no ± is printed.
    study.value("depth", state.depth.maxCoeff(), "largest depth at the last cycle",
-               std::isfinite(report.error) ? report.error : none);
+               std::isfinite(report.error) ? report.error : none, unit("a²/R"));
    study.results["tolerance_reached"] = report.reached;
-   study.value("energy", state.dissipation.sum(), "energy that friction took");
+   study.value("energy", state.dissipation.sum(), "energy that friction took, all cycles", none,
+               unit("P a²/R"));
    study.value("explicit_limit", report.explicit_limit,
-               "most cycles that may share an explicit update");
+               "largest stable explicit step, in cycles");
    study.say(text("   %ld cycles marched, %ld jumps, %.2g s", report.marched, report.jumps,
                   report.seconds));
    if (report.error > 0 && std::isfinite(report.error))
@@ -279,8 +298,8 @@ void wear_contact(Study &study)
       if (report.status != FrictionStatus::not_unique) { throw Outcome(); }
    }
    draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);
-   borders.add("from", times, from);
-   borders.add("to", times, to);
+   borders.add("it begins", times, from);
+   borders.add("it ends", times, to);
    // Lengths across the pad have another unit than lengths along it: a²/R.
    if (!file.empty()) { warn_of_depth(problem, state.depth, state.contact); }
    if (coefficient == 0 || threshold > 0)
@@ -296,7 +315,7 @@ void wear_contact(Study &study)
    const WornOut end =
       worn_out(problem, scene.history, ContactState::virgin(problem), settings.march);
    warn_of_cut_off(end.cut_off);
-   report_end(study, scene, end, profiles, pressures);
+   report_end(study, scene, end, file.empty(), profiles, pressures);
    if (end.status == FrictionStatus::stopped)
    {
       study.code = 2;
@@ -310,7 +329,7 @@ void wear_contact(Study &study)
    {
       study.value("distance_to_end",
                   (state.depth - end.depth).cwiseAbs().maxCoeff() / end.depth.maxCoeff(),
-                  "depth from there, of the largest");
+                  "largest distance to the worn-out depth, over its largest depth");
    }
 }
 

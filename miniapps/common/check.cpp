@@ -458,11 +458,8 @@ void show(Study &study, const Scene &scene)
       for (Index i = 0; i < face.nodes; ++i) { contact.hold(face.position.row(i)); }
    }
    draw(study, scene, "scene", "Bodies, supports, loads", all);
-   Panel &panel =
-      draw(study, scene, "contact",
-           scene.reduction.interfaces.size() == 1 ? "Contact, normals into body 1"
-                                                  : "Contact, normals into the slaves",
-           contact);
+   Panel &panel = draw(study, scene, "contact",
+                       "Contact, normals into the body with the contact nodes", contact);
    draw_normals(panel, scene.reduction, 0.06 * contact.size());
    draw_mesh(study, scene, all);
    Panel &gaps = study.lines("gap", "Initial gap", "arc length" + study.units.of(0, 1),

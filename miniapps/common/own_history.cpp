@@ -615,8 +615,20 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
       text("At time %g%s: ", state.time, report.not_unique ? ", one of several states" : "") +
       more);
    if (problem.nodes() == 0) { return; } // nothing can open or slip
-   study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(),
-                "peak pressure" + study_.units.of(1, -2));
+   // At a sharp corner the pressure of the bodies has no limit, and that of a mesh grows.
+   const Eigen::VectorXd pressure = tractions(problem, state.p);
+   Eigen::Index highest = 0;
+   const double peak = pressure.maxCoeff(&highest);
+   const bool at_corner = std::any_of(
+      problem.chains.begin(), problem.chains.end(),
+      [&](const ContactChain &chain)
+      {
+         return (highest == chain.first && chain.ends[0] == LineEnd::corner) ||
+                (highest == chain.first + chain.nodes - 1 && chain.ends[1] == LineEnd::corner);
+      });
+   study_.value("peak_pressure", peak,
+                "peak pressure" + study_.units.of(1, -2) +
+                   (at_corner ? ", at a corner (depends on the mesh)" : ""));
    const Eigen::Index touching = touching_nodes(problem, state);
    study_.results["touching_nodes"] = touching;
    if (problem.chains.empty())
@@ -649,8 +661,8 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                              {"from_y"},
                              {"to_x"},
                              {"to_y"},
-                             {"from_angle", round ? "from" : "", "%.3f"},
-                             {"to_angle", round ? "to (degrees)" : "", "%.3f"}});
+                             {"from_angle", round ? "angle from" : "", "%.3f"},
+                             {"to_angle", round ? "to (degrees from x to y)" : "", "%.3f"}});
    // If there are many zones, each interface has one line, without errors.
    const bool brief = !study_.verbose() && zones.size() > 8;
    table.quiet(brief);

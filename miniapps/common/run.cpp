@@ -411,7 +411,7 @@ void add_loops(Study &study, const ReducedProblem &problem, const MarchReport &r
    // Loads of a study without sizes keep their own words.
    Panel &panel = study.lines(
       "loops",
-      known ? "Force over displacement of each load" : "Loads over their displacements",
+      known ? "Force over displacement of each load, in its cycles" : "Force over displacement",
       !known ? "displacement"
              : label_of_all(x, straight ? "displacement" + study.units.of(0, 1)
                                         : "displacement or rotation"),

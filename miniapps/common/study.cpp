@@ -335,10 +335,10 @@ void Study::compare_references()
                                            {"reference", "reference", "%.5g"},
                                            {"spread", "its ± (estimate)", "%.2g"},
                                            {"mesh", "mesh ± (estimate)", "%.2g"},
-                                           {"thesis", "thesis", "%.4g"},
+                                           {"thesis", "thesis prints", "%.4g"},
                                            {"computed", "computed", "%.5g"},
                                            {"", "difference", "%+.2g"},
-                                           {"verdict", "outside of its ±"},
+                                           {"verdict", "compared with the ±"},
                                            {"tolerance"},
                                            {"outside"}});
    const auto number = [](const ordered_json &x)
@@ -432,8 +432,17 @@ ordered_json Study::shown() const
    {
       if (!film.empty()) { marches.push_back(film.json()); }
    }
+   // What was typed, without the files that are written.
+   ordered_json given = ordered_json::object();
+   for (const auto &[option, value] : options_.values().items())
+   {
+      const bool file = option == "json" || option == "csv" || option == "plot" ||
+                        option == "html" || option == "save" || option == "save-state";
+      if (options_.says(option) && !file) { given[option] = value; }
+   }
    return {
       {"study", name_},
+      {"given", given},
       {"event", results.contains("event_loads")
                    ? event_text(results["event_time"], results["event_loads"])
                    : ""},

@@ -177,14 +177,16 @@ void BoltsReport::report(const ContactState &state)
    const Units &u = study_.units;
    // Without a record of the march before, the values begin where this march continues.
    const bool begins = known_from_ > 0;
+   const bool at_points = std::any_of(tightenings_.begin(), tightenings_.end(),
+                                      [](const auto &all) { return !all.empty(); });
    ResultTable &table = study_.table(
       "bolts",
       {{"bolt", "bolt"},
-       {"tightened_at", "tightened at point"},
+       {"tightened_at", at_points ? "tightened at point" : ""},
        {"tightened_to", "tightened to" + u.total(0), "%.6g"},
-       {"all_tightened", "all tightened" + u.total(0), "%.6g"},
+       {"all_tightened", "when all were tightened" + u.total(0), "%.6g"},
        {"force", "force at the end" + u.total(0), "%.6g"},
-       {"least", "least" + u.total(0), "%.6g"},
+       {"least", std::string(begins ? "least" : "least since tightened") + u.total(0), "%.6g"},
        {"most", std::string(begins ? "most" : "most since tightened") + u.total(0), "%.6g"},
        {"known_from", begins ? "since time" : ""}});
    if (begins)

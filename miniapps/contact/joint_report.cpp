@@ -178,12 +178,12 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
                      {"moment", headed(plane ? "moment" : "", u.total(1)), "%.4g"},
                      {"moment_defect"},
                      {"torque", headed(twists() ? "torque" : "", u.total(1)), "%.6g"},
-                     {"about_x", headed(plane ? "about x" : "", u.of(0, 1)), "%.5g"},
+                     {"about_x", headed(plane ? "about the point x" : "", u.of(0, 1)), "%.5g"},
                      {"about_y", headed(plane ? "y" : "", u.of(0, 1)), "%.5g"},
                      {"dissipation", "lost a cycle" + u.total(1), "%.4e"},
-                     {"stick", "length that sticks" + u.of(0, 1), "%.4g"},
-                     {"slip", "that slips" + u.of(0, 1), "%.4g"},
-                     {"separation", "that is open" + u.of(0, 1), "%.4g"},
+                     {"stick", "sticks over" + u.of(0, 1), "%.4g"},
+                     {"slip", "slips over" + u.of(0, 1), "%.4g"},
+                     {"separation", "is open over" + u.of(0, 1), "%.4g"},
                      {"tied"},
                      {"nodes"},
                      {"free_surface", faces_nothing ? "no node opposite" : ""},
@@ -229,12 +229,14 @@ void JointReport::report_cycles(const MarchReport &march)
       {{"cycle", "cycle"},
        {"interface", "interface"},
        {"dissipation", "dissipation" + u.total(1), "%.4e"},
-       {"work", (twists() ? "area of -torque" : "area of -T") + u.total(1), "%.4e"},
+       {"work", (twists() ? "work of -torque" : "work of -T over mean slip") + u.total(1),
+        "%.4e"},
        {"shear_range", twists() ? "range of torque" + u.total(1) : "range of T" + u.total(0),
         "%.4e"},
-       {"slip_range", twists() ? "of mean turn" : "of mean slip" + u.of(0, 1), "%.4e"},
-       {"stiffness", "secant" + u.total(twists() ? 1 : -1), "%.4e"},
-       {"loss_factor", "loss factor", "%.4f"}});
+       {"slip_range", twists() ? "range of mean turn" : "range of mean slip" + u.of(0, 1),
+        "%.4e"},
+       {"stiffness", "secant stiffness" + u.total(twists() ? 1 : -1), "%.4e"},
+       {"loss_factor", "loss factor (of the work)", "%.4f"}});
    // Only the last cycle is printed.
    table.quiet(!study_.verbose());
    for (const ordered_json &row : study_.rows_before(table.name()))

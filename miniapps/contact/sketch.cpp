@@ -46,7 +46,13 @@ Sketch::Sketch(Study &study, Scene &scene) : study_(study), scene_(scene)
    filled_ = elements <= most_elements || scene.meshes[0]->Dimension() == 3;
    ordered_json bodies = ordered_json::array();
    for (std::size_t k = 0; k < scene.meshes.size(); ++k) { bodies.push_back(body(k)); }
-   study.sketch = {{"bodies", bodies}, {"frames", ordered_json::array()}};
+   ordered_json not_drawn = ordered_json::array(); // bodies without a mesh
+   for (std::size_t k = scene.meshes.size(); k < scene.reduction.bodies.size(); ++k)
+   {
+      not_drawn.push_back(scene.reduction.bodies[k].name);
+   }
+   study.sketch = {
+      {"bodies", bodies}, {"not_drawn", not_drawn}, {"frames", ordered_json::array()}};
 }
 
 /// What does not change with the increments.

@@ -139,9 +139,11 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
       columns.push_back({std::string(one.key) + "_angle"});
       curves.push_back({one.key, one.name});
    }
+   columns.push_back({"limit"});
+   curves.push_back({"limit", "limit (above it a crack starts)"});
    ResultTable &along = study.table("planes", columns);
-   along.draw("Critical planes along the surface", "x", "x / a", curves,
-              "share of the plain limit");
+   along.draw(text("Critical planes, averaged over %.4g mm of depth", depth), "x", "x / a",
+              curves, "criterion over its limit");
    const auto plane_of = [&](std::size_t c, const StressCycle &cycle)
    {
       CriticalPlane plane =
@@ -161,6 +163,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
          shares[c].push_back(plane.value);
          row.insert(row.end(), {plane.value, plane.angle * 180 / M_PI});
       }
+      row.emplace_back(1);
       study.row(along, row);
    }
    study.title(text("7. Criteria on critical planes, stresses averaged over %.4g µm of depth",
@@ -222,6 +225,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
    {
       study.lead["sentence"] = study.lead["sentence"].get<std::string>() +
                                " Critical planes say that a crack starts: " + above + ".";
+      study.lead["calm"] = false;
    }
    study.results["planes_depth"] = depth;
    study.say(

@@ -76,7 +76,8 @@ void draw_tractions(Study &study, const Pad &pad, const SolvedPad *solved)
    const HertzSurface at(pad);
    if (!solved && !has_closed_tractions(pad)) { return; }
    const double a = solved ? solved->half_width : at.half_width;
-   Panel &panel = study.lines("tractions", "On the specimen at peak load", "x [mm]", "MPa");
+   Panel &panel =
+      study.lines("tractions", "On the specimen at peak load", "x [mm]", "p, q, σ_xx [MPa]");
    const std::function<double(double)> stress =
       solved ? surface_stress(pad, *solved) : [&](double x) { return at.stress(x); };
    std::vector<double> x, p, q, along;
@@ -146,11 +147,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
 
    Panel &field = study.panel(Panel::Kind::field, "field", "von Mises stress σ_vM/(K_N √d)",
                               "t/d", "depth y/d");
-   std::vector<double> frictions_of_field{f}; // its own first
-   for (const double other : {0.8, 0.6})
-   {
-      if (other != f) { frictions_of_field.push_back(other); }
-   }
+   std::vector<double> frictions_of_field = with_design({0.6, 0.8}, f);
+   std::sort(frictions_of_field.begin(), frictions_of_field.end());
    for (const double friction : frictions_of_field)
    {
       const Edge unit{1, 0.5 * friction, friction};
@@ -159,7 +157,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
          for (int i = 0; i <= 120; i++)
          {
             const double t = -1 + 0.025 * i, y = 0.025 * j;
-            field.add(exact_text("f = ", friction), t, y,
+            field.add(exact_text("f = ", friction) + (friction == f ? " (design)" : ""), t, y,
                       von_mises(stress(unit, t, y), constraint));
          }
       }
@@ -173,8 +171,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
                  const double t = -1 + 0.01 * i;
                  return std::pair{t, surface_von_mises(friction, constraint, t)};
               });
-   Panel &yield =
-      study.lines("yield", "Yield of the slip zone", "friction coefficient f", "load K_N √d/k");
+   Panel &yield = study.lines("yield", "Yield of the slip zone (below both: elastic)",
+                              "friction coefficient f", "load K_N √d/k");
    std::vector<double> frictions, first, full;
    for (int i = 0; i <= 90; i++)
    {
@@ -199,20 +197,28 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    // shut.
    Panel &ratios = study.lines("trajectory_ratios", exact_text("Open part of ΔK_I, f = ", f),
                                "crack depth c/d", "ΔK_I/√(K_N K_T d)");
+   std::vector<double> depth;
+   std::vector<std::pair<std::string, std::vector<double>>> curves; // equal ones are one curve
    for (const double R : {-1.0, -0.5, 0.0, 0.3, 0.6})
    {
       CrackedEdge crack;
       crack.edge = {1, 0.5 * f, f};
       crack.stress_ratio = R;
-      std::vector<double> depth, open;
+      depth.clear();
+      std::vector<double> open;
       for (int i = 1; i <= 200; i++)
       {
          depth.push_back(0.005 * i);
          open.push_back(crack_cycle(crack, depth.back()).drive(Criterion::open) /
                         std::sqrt(crack.edge.k_t));
       }
-      ratios.add(exact_text("R = ", R), depth, open);
+      if (!curves.empty() && curves.back().second == open)
+      {
+         curves.back().first += exact_text(", ", R);
+      }
+      else { curves.emplace_back(exact_text("R = ", R), open); }
    }
+   for (const auto &[name, open] : curves) { ratios.add(name, depth, open); }
    if (!pad.plane_stress)
    {
       ResultTable &transition =
@@ -225,8 +231,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
       }
    }
    if (pad.kind == "flat-rounded") { draw_profile(study, pad); }
-   Panel &threshold =
-      study.lines("threshold", "Threshold, edge field alone", x_of_threshold, y_of_threshold);
+   Panel &threshold = study.lines("threshold", "Threshold, edge field alone (above: grows)",
+                                  x_of_threshold, y_of_threshold);
    const double last = std::max(1.0, 1.5 * r.abscissa);
    const auto ordinate = [&](double friction, double x)
    { return threshold_ordinate(criteria.criterion, friction, x, pad.load_ratio); };
@@ -247,7 +253,10 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    diagram.say("scale", "loglog");
    // A crack that is no longer small compared with the contact is in another field.
    const double limit = 0.25 * width / r.critical_length;
-   if (width > 0 && limit < 10) { diagram.say("shade", text("%g,10,too deep", limit)); }
+   if (width > 0 && limit < 10)
+   {
+      diagram.say("shade", text("%g,10,too deep for this field", limit));
+   }
    CrackedEdge alone = judged.problem.crack;
    alone.bulk_stress = alone.stress_gradient = 0;
    std::vector<double> c, no_growth, drive, drive_alone;
@@ -269,6 +278,11 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    diagram.add("crack, edge field alone", c, drive_alone);
    const double at_a0 = r.threshold.drive / pad.material.threshold;
    if (at_a0 > 0.05) { mark(diagram, "design at a0", 1, at_a0); }
+   const double stops = r.threshold.arrest_depth / r.critical_length;
+   if (stops >= c.front() && stops <= c.back())
+   {
+      diagram.point("the crack stops", stops, std::min(1.0, std::sqrt(stops)), "cross");
+   }
    diagram.limit("y", 0.05, none);
 }
 
@@ -472,7 +486,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          const auto add = [&](Panel &panel, double x, double y)
          {
             panel.point(test.series, x, y, test.runout == 1 ? "hollow" : "points");
-            if (!trusted) { panel.point("not valid", x, y, "cross"); }
+            if (!trusted) { panel.point("crossed: trust is poor", x, y, "cross"); }
          };
          add(tests, r.abscissa, r.ordinate);
          for (Measure &measure : measures)

@@ -16,25 +16,22 @@ using Json = nlohmann::ordered_json;
 namespace
 {
 
-/// Measures beside the criterion of arrest that exceed their limits.
-std::string against(const FrettingReport &report, double fatigue_limit)
+/// The range of stress that a plain specimen endures.
+double endured_range(const FatigueMaterial &material)
 {
-   std::string found;
-   if (report.edge_stress_range > fatigue_limit)
-   {
-      found += text(" The range of the edge stress, %.4g MPa, is above the fatigue limit, "
-                    "%.4g MPa.",
-                    report.edge_stress_range, fatigue_limit);
-   }
-   if (report.mode_two_utilisation > 1)
-   {
-      found += text(" Not safe by mode II: ΔK_II is %.4g times its threshold.",
-                    report.mode_two_utilisation);
-   }
-   return found;
+   return (material.fatigue_limit_basis == Basis::range ? 1 : 2) * material.fatigue_limit.low;
 }
 
-std::string verdict_text(const FrettingReport &report, double fatigue_limit)
+/// The other measure that may say "not safe" beside the criterion of arrest.
+std::string against(const FrettingReport &report)
+{
+   if (!(report.mode_two_utilisation > 1)) { return ""; }
+   return text(" By mode II it is not safe: ΔK_II is %.4g times its threshold. Mode II counts "
+               "where the slip zone yields; the load is %.2g of that which makes it yield.",
+               report.mode_two_utilisation, report.yield_ratio_full);
+}
+
+std::string verdict_text(const FrettingReport &report, const FatigueMaterial &material)
 {
    const double depth = 1e3 * report.threshold.arrest_depth;
    switch (report.threshold.verdict)
@@ -55,9 +52,16 @@ std::string verdict_text(const FrettingReport &report, double fatigue_limit)
    {
       return "ARRESTS: no crack starts; the fatigue limit is not reached at the edge.";
    }
-   return "ARRESTS: a crack may start but stops at about " + text("%.4g µm", depth) +
-          ", before the critical length. Safe by this criterion." +
-          against(report, fatigue_limit);
+   const double endured = endured_range(material);
+   const bool starts = report.edge_stress_range > endured;
+   return "ARRESTS: a crack may start" +
+          (starts ? text(" (the range of the edge stress, %.4g MPa, is above the range at the "
+                         "fatigue limit, %.4g MPa)",
+                         report.edge_stress_range, endured)
+                  : "") +
+          " but stops at about " + text("%.4g µm", depth) +
+          ", before the critical length. Safe by this criterion, the arrest of the crack." +
+          against(report);
 }
 
 /// The validity that lowers the trust most.
@@ -84,12 +88,20 @@ const char *criterion_text(Criterion criterion)
    case Criterion::open:
       break;
    }
-   return "part of the cycle in which the crack is open (A)";
+   return "range of K_I while the crack is open (A)";
 }
 
 std::string number(double value, const std::string &unit = "")
 {
    return text("%.4g", value) + (unit.empty() ? "" : " " + unit);
+}
+
+/// The ± of a fit; nothing for closed forms.
+std::string with_error(const FittedIntensity *fit)
+{
+   return fit ? "± " + text("%.2g", fit->relative_error * std::abs(fit->value)) +
+                   " (estimate, fitted); "
+              : "";
 }
 
 /// A page with the meaning of each of its numbers, which go to the results as well.
@@ -100,8 +112,13 @@ public:
 
    void line(const std::string &what, const std::string &value, const std::string &meaning = "")
    {
-      study_.lead["rows"].push_back({what, value, meaning});
+      beside(what, value, meaning);
       study_.say("   " + padded(what, 23) + padded(value, 24) + meaning);
+   }
+   /// A line of the page of --html alone.
+   void beside(const std::string &what, const std::string &value, const std::string &meaning)
+   {
+      study_.lead["rows"].push_back({what, value, meaning});
    }
    void value(const std::string &key, const std::string &what, double x,
               const std::string &unit = "", const std::string &meaning = "")
@@ -123,15 +140,16 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
    const FrettingReport &r = judged.report;
    const FatigueMaterial &m = pad.material;
    const double a = contact.half_width > 0 ? contact.half_width : none;
-   const std::string verdict = verdict_text(r, m.fatigue_limit.low);
+   const std::string verdict = verdict_text(r, m);
    // The edge field knows K_N and K_T only; the solved contact has its own values beside it.
    const std::string field = "by the edge field, from K_N and K_T";
    const PadEdge *const edge = !solved                     ? nullptr
                                : judged.edge == "trailing" ? &solved->trailing
                                                            : &solved->leading;
-   const std::string solved_slip =
-      edge ? "; of the solved contact: " + number(edge->edge.slip_zone, "mm") : "";
-   const std::string solved_energy = edge ? "; that of the solved contact is in section 6" : "";
+   const auto and_solved = [&](double x, const std::string &unit)
+   { return std::isfinite(x) ? "; of the solved contact: " + number(x, unit) : ""; };
+   const EnergyComparison energy =
+      edge && edge->energy ? *edge->energy : EnergyComparison{none, none, none, none};
    study.title("FRETTING ASSESSMENT: " + pad.kind + " pad, " + m.name + ", " +
                (pad.plane_stress ? "plane stress" : "plane strain"));
    study.say(wrapped(
@@ -144,20 +162,40 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
    study.say(wrapped(verdict, 3) + wrapped(trust_text(r) + ", see the section on trust.", 3));
    Page page(study);
    study.lead["sentence"] = verdict + " " + trust_text(r) + ".";
+   study.lead["calm"] = r.threshold.verdict == CrackVerdict::arrests && against(r).empty();
+   if (pad.kind != "kn")
+   {
+      page.beside(
+         "loads",
+         text("P %.4g, Q %.4g N/mm, bulk %.4g MPa", pad.normal, pad.shear, pad.bulk_or_none()),
+         text("Q and bulk stress go between their values and %.4g times these",
+              pad.load_ratio));
+   }
+   page.beside("material " + m.name,
+               text("E %.4g GPa, ν %.4g, f %.4g", 1e-3 * m.young, m.poisson, pad.friction),
+               text("ΔK_th %.4g MPa√m = %.4g MPa√mm; fatigue limit %.4g MPa, shear yield "
+                    "%.4g MPa",
+                    m.threshold / mpa_sqrt_m, m.threshold, m.fatigue_limit.low,
+                    m.shear_yield.low));
    study.say("1. What the contact edge feels");
    page.value("half_width", "half width a", a, "mm", "of the contact");
    page.value("k_n", "K_N", contact.k_n, "MPa/√mm",
-              "pressure at distance t from the edge: K_N √t");
+              with_error(edge ? &edge->edge.k_n : nullptr) +
+                 "pressure at distance t from the edge: K_N √t");
    page.value("k_t_trailing", "K_T trailing edge", contact.k_t.trailing, "MPa√mm",
-              "shear there if nothing slipped: K_T/√t");
+              with_error(solved ? &solved->trailing.edge.k_t : nullptr) +
+                 "shear there if nothing slipped: K_T/√t");
    page.value("k_t_leading", "K_T leading edge", contact.k_t.leading, "MPa√mm",
-              contact.k_t.leading < 0 ? "negative: the shear force outweighs the bulk" : "");
+              with_error(solved ? &solved->leading.edge.k_t : nullptr) +
+                 (contact.k_t.leading < 0 ? "negative: the shear force outweighs the bulk"
+                                          : "shear there if nothing slipped"));
    page.value("k_t_range", "ΔK_T", r.k_t_range, "MPa√mm",
               "range over the cycle; judged below: the " + judged.edge + " edge");
 
    study.title("2. Slip and stress");
    page.value("slip_zone", "slip zone d", r.slip_zone, "mm",
-              (a > 0 ? number(100 * r.slip_zone / a, "% of a, ") : "") + field + solved_slip);
+              (a > 0 ? number(100 * r.slip_zone / a, "% of a, ") : "") + field +
+                 and_solved(edge ? edge->edge.slip_zone : none, "mm"));
    page.value("edge_stress", "edge stress", r.edge_stress, "MPa",
               "along the surface, at peak load, by the edge field");
    if (solved)
@@ -184,13 +222,13 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
       else
       {
          page.line("edge stress, contact", "-",
-                   "no closed form where an edge slips against the shear: --pad fe");
+                   "no closed form where an edge slips against the shear; --pad fe solves it");
       }
    }
    page.value("edge_stress_range", "edge stress, range", r.edge_stress_range, "MPa",
-              "largest less least over the cycle, by the edge field; fatigue limit " +
-                 number(m.fatigue_limit.low, "MPa") +
-                 (m.fatigue_limit_basis == Basis::range ? ", a range" : ", an amplitude"));
+              "largest less least over the cycle, by the edge field; range at the fatigue "
+              "limit: " +
+                 number(endured_range(m), "MPa"));
    page.value("yield_ratio_first", "load / first yield", r.yield_ratio_first, "",
               "above 1: part of the slip zone yields");
    page.value("yield_ratio_full", "load / full yield", r.yield_ratio_full, "",
@@ -202,18 +240,20 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
    page.line("K_I at a0", number(r.k_i_min) + " to " + number(r.k_i_max, "MPa√mm"),
              "over the cycle; negative: pressed shut");
    page.line("driving force / ΔK_th", number(r.threshold.drive / m.threshold),
-             criterion_text(criteria.criterion));
+             std::string("driving force: ") + criterion_text(criteria.criterion) +
+                "; above 1 a crack of the length a0 grows");
    page.line("ΔK_T / ΔK_th", number(r.ordinate),
              "threshold curve at X = " + number(r.abscissa) + ": " +
-                number(r.threshold_ordinate) + " (edge field alone)");
+                number(r.threshold_ordinate) + ", above which it grows (edge field alone)");
    page.value("mode_two_utilisation", "ΔK_II / its threshold", r.mode_two_utilisation, "",
               "above 1 not safe, where the slip zone yields");
 
    study.title("4. Frictional energy per cycle");
    page.value("energy_max", "energy, largest", r.energy_max, "N/mm",
-              "per area (= mJ/mm²), a quarter into the slip zone, " + field + solved_energy);
+              "per area (= mJ/mm²), a quarter into the slip zone, " + field +
+                 and_solved(energy.computed_max, "N/mm"));
    page.value("energy_total", "energy, total", r.energy_total, "N",
-              "per mm of edge (= mJ/mm), " + field + solved_energy);
+              "per mm of edge (= mJ/mm), " + field + and_solved(energy.computed_total, "N"));
 
    study.title("5. How far to trust it");
    Json validity = Json::array();

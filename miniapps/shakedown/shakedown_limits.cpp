@@ -20,7 +20,8 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
 {
    const bool found =
       of.status == LimitStatus::certified || of.status == LimitStatus::bracketed;
-   study.value(what + "_limit", of.limit, "exact limit of the " + what);
+   study.value(what + "_limit", of.limit,
+               "exact limit of the " + what + (what == "friction" ? ", f" : ", λ"));
    results[what + "_limit_status"] = name(of.status);
    study.say(found ? text("      proven between %.8f and %.8f", of.lower, of.upper)
                    : std::string("      none: ") + name(of.status));
@@ -35,6 +36,21 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
       results["bound_upper"] = bounds ? of.upper : std::nan("");
       results["violation"] = of.violation;
       results["status"] = name(of.status);
+      study.lead = {
+         {"sentence",
+          told(
+             "The exact limit of the ", what, what == "friction" ? ", f" : ", λ",
+             found ? told(", is ", name(of.status), ": it lies between ",
+                          text("%.8f", of.lower), " and ", text("%.8f", of.upper))
+                   : told(": ", name(of.status)),
+             ". This holds for the mesh of this run, and as long as all nodes of the contact "
+             "stay closed. Adhesion and the methods 1 and 2 are computed at nodes, with the ± "
+             "of the mesh in the table of references.",
+             saved ? ""
+                   : " λ = Q/P is the cycled load, from λmax to R λmax; f the coefficient of "
+                     "friction; v slip; a the half-width of the contact; E' = E/(1-ν²). P = a "
+                     "= E' = 1.")},
+         {"rows", ordered_json::array()}};
    }
    if (!found) { return; }
    results[what + "_limit_starts"] = of.starts;
@@ -96,7 +112,7 @@ void Shakedown::monolith()
          by = "the fit";
       }
       ResultTable &table = study.table("adhesion", {{"load_factor", "λ", "%.1f"},
-                                                    {"friction", "f, full adhesion"},
+                                                    {"friction", "f for full adhesion"},
                                                     {"x", "at x", "%.3f"}});
       for (const Adhesion &at : adhesion_map(problem, cycle, 0, {0.4, 0.6, 0.8}, inner))
       {
@@ -141,7 +157,7 @@ void Shakedown::leave_corner(double opens)
 void Shakedown::draw_adhesion(double opens, const char *by)
 {
    ResultTable &table = study.table("adhesion_map", {{"load_factor", "λ", "%.3f"},
-                                                     {"", "full adhesion"},
+                                                     {"", "f for full adhesion"},
                                                      {"", "at x"},
                                                      {"open"},
                                                      {"friction"},
@@ -184,7 +200,7 @@ void Shakedown::smallest_friction()
 {
    study.title(text("Smallest friction for λ = %g … %g", lambda_max, lambda_max * reversal));
    const PointwiseEstimate first = method1_friction(problem, cycle, lambda_max, inner);
-   study.value("method1", first.value, "method 1 (4.9)", none,
+   study.value("method1", first.value, "f by method 1 (thesis, 4.9)", none,
                text("at x = %.3f", x[first.node]));
    if (problem.components() == 1) { method2(first.value); }
    least = smallest(limit);
@@ -213,9 +229,10 @@ void Shakedown::method2(double f1)
       study.say("   method 2: none: " + second.message);
       return;
    }
-   study.value("method2_low", second.low, "method 2, least of all residual tractions");
-   study.value("method2_high", second.high, "and most");
-   study.value("method2_natural", second.natural, "and of the one without resultant");
+   study.value("method2_low", second.low, "f by method 2, least of all residual tractions");
+   study.value("method2_high", second.high, "f by method 2, most of all residual tractions");
+   study.value("method2_natural", second.natural,
+               "f by method 2, residual traction without resultant");
    Panel &panel = study.lines("method2", "Permissible residual shear, method 1",
                               of_punch("x/a", "arc length"), of_punch("-a q/P", "-q"));
    panel.add("permissible", x, -traction(second.residual_high), "band");
@@ -230,7 +247,7 @@ void Shakedown::largest_load()
    if (coulomb)
    {
       study.value("method1_load", method1_load(problem, cycle, inner).value,
-                  "method 1 (4.9), λmax");
+                  "λ by method 1 (thesis, 4.9)");
    }
    report("load", most, most.limit, friction);
    results["load_limit_lower"] = most.lower;

@@ -175,7 +175,7 @@ void Shakedown::marches()
       }
       for (std::size_t k = 0; k < loss.size(); ++k)
       {
-         losses.point(std::string("from ") + start + " slip", k + 1.0,
+         losses.point(std::string("start: ") + start + " slip", k + 1.0,
                       loss[k] > 0 ? loss[k] : none);
       }
    }
@@ -214,8 +214,8 @@ void Shakedown::limit_map()
                                             {"load_limit"},
                                             {"lower"},
                                             {"upper"}});
-   table.draw("Largest load", "ratio", "Qmax/fP", {{"friction", "f"}}, "friction coefficient f",
-              {"reversal", "R"});
+   table.draw("Largest load, R = λmin/λmax", "ratio", "Qmax/fP", {{"friction", "f"}},
+              "friction coefficient f", {"reversal", "R"});
    LimitReport column[4];
    for (int k = 0; k < 12; ++k)
    {

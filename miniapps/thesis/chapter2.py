@@ -45,7 +45,7 @@ def plain(series):
 
 def fields(run):
     """Of the run's own friction alone."""
-    return f.panels((run, "field", {"title": "", "only": lambda s: s == f"f = {run['friction']:g}"}))
+    return f.panels((run, "field", {"title": "", "only": lambda s: s == f"f = {run['friction']:g} (design)"}))
 
 
 def materials():
@@ -83,7 +83,7 @@ def together(run):
         # Limits of several materials, and thresholds of several frictions, are told apart.
         for k, line in enumerate(line for line in axes.get_lines() if line.get_color() == "#555555"):
             line.set(color=("#333333", "#B00020", "#7A4FA3")[k % 3], linestyle=f.DASHES[1 + k % 3])
-        axes.legend(fontsize=6.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2, frameon=False)
+        axes.legend(fontsize=6.5, loc="upper center", bbox_to_anchor=(0.5, -0.19), ncol=2, frameon=False)
     return sheet
 
 
@@ -125,7 +125,7 @@ def reduced(run, other):
         for line in axes.get_lines():
             if line.get_label().startswith("reduced"):
                 line.set_color("#B00020")
-        axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=3, frameon=False)
+        axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2, frameon=False)
     return sheet
 
 

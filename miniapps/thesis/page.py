@@ -30,6 +30,8 @@ th:first-child, td:first-child { text-align: left; white-space: normal; } th { c
 .outside { color: var(--warn); font-weight: 600; }
 .wrong { border-left: 4px solid var(--warn); padding: .1rem 0 .1rem .9rem; margin: .8rem 0; }
 .missing { border: 1px dashed var(--soft); padding: .6rem .9rem; color: var(--soft); }
+@media (max-width: 600px) { nav { columns: 1; } figure { overflow-x: auto; text-align: left; } figure img { max-width: none; width: 36rem; }
+  figure::before, .scroll::before { content: "Scroll sideways →"; font: .75rem sans-serif; color: var(--warn); display: block; position: sticky; left: 0; } .plain td { min-width: 5.5em; } }
 @media print { body { max-width: none; padding: 0; font-size: 10.5pt; } section { break-inside: avoid; }
   .scroll { overflow: visible; } h2 { break-before: auto; } h2, h3 { break-after: avoid; } a { color: inherit; text-decoration: none; }
   figure img { max-height: 8.6cm; width: auto; } section { margin: 1.2rem 0; } @page { size: A4; margin: 16mm 15mm; } }

@@ -181,7 +181,7 @@ def edge():
     t = [k / 100 for k in range(1, 301)]
     root = [a ** 0.5 for a in t]
     right.plot([0, *t], [0, *root], color=COLOURS[0], linewidth=1.8, label="p = K_N √t")
-    right.plot(t[4:], [0.5 / r for r in root[4:]], color=COLOURS[1], linestyle=(0, (2, 1.5)), label="q = K_T/√t, adhered")
+    right.plot(t[4:], [0.5 / r for r in root[4:]], color=COLOURS[1], linestyle=(0, (2, 1.5)), label="q/f = K_T/(f √t), adhered")
     right.plot([0, *t], [0, *[r - max(0, a - 1) ** 0.5 for r, a in zip(root, t)]], color=COLOURS[2], linestyle=(0, (6, 2)), label="q/f with slip, 0 < t < d")
-    label(right, "t/d", "tractions near the edge")
+    label(right, "t/d", "p, q/f near the edge")
     return figure

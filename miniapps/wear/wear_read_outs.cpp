@@ -90,9 +90,10 @@ Zone widest_stick(const ReducedProblem &problem, const VectorXd &p, std::vector<
 
 } // namespace
 
-void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &profiles,
-                Panel &pressures)
+void report_end(Study &study, const WearCase &scene, const WornOut &end, bool of_pad,
+                Panel &profiles, Panel &pressures)
 {
+   const auto unit = [&](const char *name) { return of_pad ? name : ""; };
    study.title("Worn out");
    study.results["worn_out"] = name(end.status);
    if (end.status != FrictionStatus::converged)
@@ -120,7 +121,7 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    const VectorXd s = problem.arc_length.segment(begin, nodes),
                   overlap = end.overlap.segment(begin, nodes);
    study.value("final_stick", half_width(stick), "worn out: half-width that sticks",
-               read_out_error(stick));
+               read_out_error(stick), unit("a"));
    Index first = nodes - 1, last = 0;
    for (Index i = 0; i < nodes; ++i)
    {
@@ -130,13 +131,15 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    }
    study.value("final_extent",
                0.5 * (crossing(s, overlap, last, 1) - crossing(s, overlap, first, -1)),
-               "worn out: half-width that is worn or sticks");
-   study.value("final_volume", worn_volume(problem, end.depth), "worn out: volume");
-   study.value("final_depth", end.depth.maxCoeff(), "worn out: largest depth");
+               "worn out: half-width that is worn or sticks", none, unit("a"));
+   study.value("final_volume", worn_volume(problem, end.depth), "worn out: volume", none,
+               unit("a³/R"));
+   study.value("final_depth", end.depth.maxCoeff(), "worn out: largest depth", none,
+               unit("a²/R"));
    study.value("final_pressure_centre", pressure_amid(problem, p, stick),
-               "worn out: pressure in the middle of the stick zone");
+               "worn out: pressure in the middle of the stick zone", none, unit("P/a"));
    study.value("final_loss", settled(end.loss, 1),
-               "worn out: loss of a cycle over the unworn one's");
+               "worn out: loss of a cycle over that of the unworn contact");
    study.results["final_depths"] =
       std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());
    const VectorXd x = problem.arc_length.array() - scene.middle;
@@ -153,7 +156,11 @@ void draw_loop(Panel &panel, const std::string &label, const WearCase &scene,
    settings.increments = std::max(settings.increments, 20);
    ContactState contact = state.contact;
    contact.time = cycle.times[cycle.cycle_start];
-   add_loops(panel, worn, march(worn, cycle, contact, settings), ", " + label);
+   IncrementRecord start = record_of(worn, contact);
+   start.cycle = 0; // the loop begins at this state
+   MarchReport report = march(worn, cycle, contact, settings);
+   report.increments.insert(report.increments.begin(), start);
+   add_loops(panel, worn, report, ", " + label);
 }
 
 } // namespace miniapp

@@ -18,7 +18,8 @@ void warn_of_depth(const ReducedProblem &problem, const Eigen::VectorXd &depth,
 
 /// Computes the state in which wear ends directly, and adds it to the panels of depths and
 /// pressures.
-void report_end(Study &study, const WearCase &scene, const cattaneo::WornOut &end,
+/// @param of_pad is it the pad, in its units?
+void report_end(Study &study, const WearCase &scene, const cattaneo::WornOut &end, bool of_pad,
                 Panel &profiles, Panel &pressures);
 
 /// Marches one more cycle in many increments, for the loop of each load that varies.

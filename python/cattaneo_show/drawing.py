@@ -34,7 +34,7 @@ DASHED = (0, (5, 2))  # of companions
 DASHES = ["-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)), (0, (1, 1)), (0, (9, 3)), "-"]
 MARKERS = ["o", "s", "D", "v", "P", "X"]
 STATES = OrderedDict([
-    ("stick", ("#F2F2F2", "")),
+    ("stick", ("#BDBDBD", "")),
     ("forward slip", ("#E69F00", "////")),
     ("backward slip", ("#56B4E9", "\\\\\\\\")),
     ("slip", ("#E69F00", "////")),
@@ -113,7 +113,7 @@ def draw_lines(axes, comments, rows):
     axes.set_axisbelow(True)
     for line in axes.get_lines():  # not visible on a logarithmic axis
         if comments["scale"] and comments["scale"][0] != "semilogx" and len(line.get_ydata()) and not max(line.get_ydata()) > 0:
-            line.set_label(f"{line.get_label()} (zero, not on this axis)")
+            line.set_label(f"{line.get_label()} (no loss, not on this axis)" if "loss" in "".join(comments["title"]).lower() else f"{line.get_label()} (0, not on this axis)")
     said = labelled - {""}
     if len(labelled) > 1 or said and not said & set(comments["y"][0].split()):  # the axis names a single curve
         legend_below(axes)
@@ -195,7 +195,7 @@ def legend_below(axes):
     handles, labels = axes.get_legend_handles_labels()
     labels = [symbols(label) for label in labels]
     columns = max(1, min(len(labels), 62 // (max(map(len, labels)) + 7)))
-    axes.legend(handles, labels, fontsize=8, ncol=columns, loc="upper center", bbox_to_anchor=(0.5, -0.17), frameon=False,
+    axes.legend(handles, labels, fontsize=8, ncol=columns, loc="upper center", bbox_to_anchor=(0.5, -0.2), frameon=False,
                 handlelength=2.6, columnspacing=1.4)
 
 
@@ -268,11 +268,14 @@ def draw_scene(axes, comments, rows):
     bodies = [item for item in items if item.split()[0] == "body"]
     of_body = {item: COLOURS[k % len(COLOURS)] for k, item in enumerate(bodies)}
     named = not all(re.fullmatch(r"body \d+", item) for item in bodies)
+    limits = [[float(end) if end else other for end, other in zip((comments[key] or [","])[0].split(","), (-math.inf, math.inf))] for key in ("limits x", "limits y")]
     for item, parts in items.items():
         x, y, dx, dy = zip(*parts)
         kind = item.split()[0]
         if kind == "gap" and not any(dx) and not any(dy):
             continue  # nothing to be seen of it
+        if not any(all(lo <= at <= hi for at, (lo, hi) in zip((a + share * c, b + share * d), limits)) for a, b, c, d in parts for share in (0, 0.5, 1)):
+            continue  # outside of the picture
         if kind in ("body", "gap"):
             colour = "black" if kind == "gap" else of_body[item]
             axes.add_collection(LineCollection([[(a, b), (a + c, b + d)] for a, b, c, d in parts], colors=colour,
@@ -289,7 +292,7 @@ def draw_scene(axes, comments, rows):
         else:
             colour = "#777777" if kind == "normal" else COLOURS[(len(bodies) + arrows) % len(COLOURS)]
             arrows += kind == "load"
-            axes.quiver(x, y, dx, dy, angles="xy", scale_units="xy", scale=1, width=0.004, color=colour, zorder=3)
+            axes.quiver(x, y, dx, dy, angles="xy", scale_units="xy", scale=1, width=0.004 if kind == "normal" else 0.008, color=colour, zorder=3)
             axes.plot([], [], color=colour, marker=r"$\rightarrow$", markersize=11, linestyle="", label=item)
     axes.set_aspect("equal", anchor="S")  # the legend stays below
     axes.legend(fontsize=7, ncol=3, loc="upper center", bbox_to_anchor=(0.5, -0.21), frameon=False)
@@ -381,7 +384,7 @@ def less_elastic(said, rows):
         return None
     x = said["x"][0] if said["x"] else ""
     name, bracket, unit = x.partition(" [")
-    return defaultdict(list, said, title=["The same less the elastic part"], x=[f"{name} less elastic part{bracket}{unit}"]), made
+    return defaultdict(list, said, title=["The same less its elastic part (force/steepest slope)"], x=[f"{name} less elastic part{bracket}{unit}"]), made
 
 
 DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": draw_plan, "field": draw_field,

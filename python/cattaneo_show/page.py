@@ -21,7 +21,7 @@ def page(run, file, figure=True):
     shown = run["shown"]
     case = shown["options"].get("case") or ""
     data = {"study": shown["study"], "title": pathlib.Path(case).name.removesuffix(".json"), "status": run.get("status", ""), "message": run.get("message", ""), "event": shown["event"], "units": shown.get("units", {"length": "", "pressure": ""}),
-            "seconds": run.get("seconds"), "warnings": run.get("warnings", []), "options": shown["options"], "values": shown["values"],
+            "seconds": run.get("seconds"), "warnings": run.get("warnings", []), "options": shown["options"], "given": shown.get("given", {}), "values": shown["values"],
             "tables": shown["tables"], "films": shown["marches"], "more_films": shown["more_marches"], "lead": shown.get("lead"), "sketch": shown.get("sketch")}
     text = (HERE / "page.html").read_text(encoding="utf-8")
     # Within a script "</" would end it.

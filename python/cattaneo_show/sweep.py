@@ -21,6 +21,7 @@ from .tables import Table, csv_files, text_of, write
 
 # Sizes and times of a run, and residuals. They are listed only on request.
 NO_RESULTS = {"contact_nodes", "dofs", "seconds", "seconds_condensation", "time", "event_time", "largest_residual", "energy_imbalance"}
+EARLY = "; values in parentheses are of a run that ended early, at its end"
 NOT_SHOWN = {"thickness", "first_cycle", "state_changes", "steady_cycle", "steady_period"}  # unasked: an input, and how a run went
 MOST_SHOWN = 9  # columns on the screen, and panels
 
@@ -198,7 +199,8 @@ def words_of(points, name):
                 label, bracket, unit = value["label"].partition(" [")
                 return label, f" [{value['unit']}]" if value["unit"] else bracket + unit
     energy = next((point.results["shown"]["units"].get("energy", "") for point in points if "shown" in point.results), "")
-    return name.replace("_", " "), energy if name.endswith("dissipation") else ""
+    word = "energy lost in the whole history" if name == "total_dissipation" else name.replace("_", " ")
+    return word, energy if name.endswith("dissipation") else ""
 
 
 def scale(parts):
@@ -248,11 +250,11 @@ def curves(keys, points, names):
             good = [x for part in parts.values() for x in part["x"] if x < min(slides)]
             begin, why = max(good) if good else min(slides), slides[min(slides)].replace("_", " ")
             word = f"{why} begins between {begin:.9g} and {min(slides):.9g}" if good else why
-            shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{word}"}
+            shaded = {"shade": f"{begin:.9g},{max(slides):.9g},{word}", "limits x": f",{max(slides):.9g}"}
         if parts:
             slopes(parts, scale(parts.values()))
             said, unit = words_of(points, name)
-            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": said[:1].upper() + said[1:], "x": label, "y": said + unit,
+            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": said[:1].upper() + said[1:], "x": label, "y": said + unit.partition(" (")[0],
                            **scale(parts.values()), **shaded, "parts": list(parts.values())})
     return panels
 
@@ -302,7 +304,7 @@ def sweep(plan, draws):
     run.update(points=len(points), status="ended early" if missing else "converged")
     if converged < asked:
         run["status"] = "stopped" if len(points) < asked else "ended early"
-        run["message"] = f"{converged} of {asked} points converged"
+        run["message"] = f"{converged} of {asked} points converged" + (EARLY if len(points) == asked else "")
         print("\n" + run["message"])
     counters = {}
     for point in points:
@@ -310,7 +312,8 @@ def sweep(plan, draws):
             counters[name] = counters.get(name, 0) + count
     run.update(sweep=table.rows, references=[], seconds=time.monotonic() - begun, counters=counters, blas_kernels=plan["blas_kernels"],
                warnings=warnings)
-    run["shown"] = {"study": plan["study"], "event": "", "units": {"length": "", "pressure": ""}, "options": options, "values": [], "tables": [in_words(table.printed(), keys, points)] if points else [],
+    units = next((point.results["shown"]["units"] for point in points if "shown" in point.results), {"length": "", "pressure": ""})
+    run["shown"] = {"study": plan["study"], "event": "", "units": units, "options": options, "values": [], "lead": lead(plan["study"], keys), "tables": [in_words(table.printed(), keys, points)] if points else [],
                     "csv": [{"name": "sweep", "columns": table.keys()}], "panels": panels, "marches": [], "more_marches": 0}
     if options["verbose"]:
         print(f"\nWhat it took, {run['seconds']:.3g} s")
@@ -320,6 +323,13 @@ def sweep(plan, draws):
     sys.stdout.flush()
     report(run, options, draws)
     return 0 if converged == asked and not missing else 2
+
+
+def lead(study, keys):
+    """A sentence of the page on a key whose name alone says too little."""
+    if study in ("contact", "march") and any(key["name"] == "amplitude" for key in keys):
+        return {"sentence": "The amplitude multiplies the differences of the cycle's loads from those where the cycle starts.", "rows": []}
+    return None
 
 
 def in_words(printed, keys, points):
@@ -333,15 +343,18 @@ def table_of(keys, points, names, shown):
     """A row for each point, in their order."""
     events = any("event_loads" in point.results for point in points)
     table = Table("sweep", [(key["name"], key["name"], "%g") for key in keys]
-                  + [(name, name if name in shown else "", "%.5g") for name in names]
-                  + [("status", "status", "")] + ([("event_time", "", ""), ("", "at", "")] if events else []) + [("message", "", "")])
+                  + [("status", "status", "")]
+                  + [(name, name if name in shown else "", "%.5g") for name in names] + ([("event_time", "", ""), ("", "at", "")] if events else []) + [("message", "", "")])
     for point in points:
-        row = [*point.values, *(result(point.results, path) for path in names.values()), point.status]
+        row = [*point.values, point.status, *(result(point.results, path) for path in names.values())]
         if events:
             ended = "event_loads" in point.results
             row += [point.results["event_time"] if ended else None, point.results["shown"]["event"] if ended else ""]
         more = {"event_loads": point.results["event_loads"]} if "event_loads" in point.results else {}
         table.row([*row, point.message], more)
+        if not point.ended_well:
+            cells, first = table.cells[-1], len(keys) + 1
+            cells[first:first + len(shown)] = [f"({text})" if text not in ("", "-") else text for text in cells[first:first + len(shown)]]
     return table
 
 

@@ -177,5 +177,5 @@ def test_results_of_a_sweep_are_called_as_the_program_calls_them():
 
     points = [point(1.0, True), point(1.0, True), point(2.0, False)]
     assert words_of(points, "peak") == ("peak pressure", " [MPa]")
-    assert words_of(points, "total_dissipation") == ("total dissipation", " [N mm]") and words_of(points, "none_such") == ("none such", "")
+    assert words_of(points, "total_dissipation") == ("energy lost in the whole history", " [N mm]") and words_of(points, "none_such") == ("none such", "")
     assert not varies(points, ["peak"])  # where a run slides it says nothing
