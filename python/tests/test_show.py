@@ -179,3 +179,16 @@ def test_results_of_a_sweep_are_called_as_the_program_calls_them():
     assert words_of(points, "peak") == ("peak pressure", " [MPa]")
     assert words_of(points, "total_dissipation") == ("energy lost in the whole history", " [N mm]") and words_of(points, "none_such") == ("none such", "")
     assert not varies(points, ["peak"])  # where a run slides it says nothing
+
+
+def test_a_sweep_with_one_good_point_shows_what_differs_from_the_others():
+    from cattaneo_show.sweep import Point, varies
+
+    points = [Point([friction], []) for friction in (0.3, 0.05, 0.01)]
+    for point, results in zip(points, ({"peak": 112.0, "dofs": 25}, {"peak": 93.0, "dofs": 25}, {})):  # the last one was refused
+        point.results = results
+    points[0].ended_well = True
+    assert varies(points, ["peak"]) and not varies(points, ["dofs"]) and not varies(points, ["nothing"])
+    points[1].ended_well, points[1].results = True, {"peak": 112.0, "dofs": 25}
+    points[2].results = {"peak": 90.0}
+    assert not varies(points, ["peak"])  # two ended well, and they agree
