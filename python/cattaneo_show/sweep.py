@@ -268,7 +268,7 @@ def sweep(plan, draws):
     points = [Point(point["values"], point["words"]) for point in plan["points"]]
     asked, wanted, warnings = len(points), places(options["sweep-results"]), []
     if options["plot"] and drawn_over(keys) is None:
-        raise Refused("option --plot: no key of the sweep has two numbers to draw results over")
+        raise Refused("option --plot: results are drawn over a key with two values or more, all of them numbers, and the sweep has none")
 
     def warn(sentence):
         if sentence not in warnings:

@@ -103,12 +103,15 @@ def cannot_write(file, error):
 
 
 def write(file, text):
-    """Writes a file, whole or not at all. Refused if it cannot be written."""
+    """Writes a file, whole or not at all; a device or a pipe as it is. Refused if it cannot be written."""
     end = os.path.realpath(file)  # a link stays
-    part = f"{end}.part"
+    part = end if os.path.exists(end) and not os.path.isfile(end) else f"{end}.part"
     try:
         with open(part, "w", encoding="utf-8") as out:
             out.write(text)
-        os.replace(part, end)
+        if part != end:
+            os.replace(part, end)
     except OSError as error:
+        if part != end and os.path.exists(part):
+            os.unlink(part)
         raise Refused(cannot_write(file, error)) from error

@@ -1,7 +1,9 @@
 """cattaneo.show: what is drawn are the numbers of the JSON, and a page holds them."""
 
 import json
+import os
 import re
+import stat
 
 import cattaneo
 import pytest
@@ -192,3 +194,23 @@ def test_a_sweep_with_one_good_point_shows_what_differs_from_the_others():
     points[1].ended_well, points[1].results = True, {"peak": 112.0, "dofs": 25}
     points[2].results = {"peak": 90.0}
     assert not varies(points, ["peak"])  # two ended well, and they agree
+
+
+def test_links_and_devices_stay_what_they_are(tmp_path):
+    from cattaneo_show.tables import write
+
+    link, target = tmp_path / "link.csv", tmp_path / "target.csv"
+    link.symlink_to(target)
+    write(link, "a\n")
+    assert link.is_symlink() and target.read_text(encoding="utf-8") == "a\n"
+    pipe = tmp_path / "pipe.csv"
+    os.mkfifo(pipe)
+    with open(os.open(pipe, os.O_RDWR), encoding="utf-8") as reader:
+        write(pipe, "b\n")
+        assert reader.readline() == "b\n" and stat.S_ISFIFO(pipe.stat().st_mode)
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(show.Refused, match="folder' cannot be written"):
+        write(tmp_path / "folder", "c")
+    with pytest.raises(show.Refused, match="there is no folder"):
+        write(tmp_path / "no" / "file", "c")
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["folder", "link.csv", "pipe.csv", "target.csv"]

@@ -131,7 +131,7 @@ def refused():
         assert time.monotonic() - begun < 5
     # A value that is none, not the figure that there can't be.
     assert "'x' is not a number" in run("march", *hertz, "friction=0.1 x", "--plot", "nowhere.png", code=1)
-    assert "no key of the sweep has two numbers" in run("march", *hertz, "stepping=exact fixed", "--plot", "nowhere.png", code=1)
+    assert "a key with two values or more, all of them numbers" in run("march", *hertz, "stepping=exact fixed", "--plot", "nowhere.png", code=1)
     assert "--check checks one run" in run("march", *hertz, "friction=0.2", "--check", code=1)
     for option in ("--save", "--save-state"):
         assert "a sweep has many" in run("march", *hertz, "friction=0.2", option, "nowhere.json", code=1)
