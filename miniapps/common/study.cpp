@@ -480,7 +480,7 @@ void Study::show_results(const ordered_json &run) const
    const auto &[option, name] = wanted.back();
    const bool passing = json_.empty();
    const std::string file = !passing            ? json_
-                            : option == "--csv" ? name + "_run.json"
+                            : option == "--csv" ? name + ".csv.json"
                                                 : name + ".json";
    if (passing) { write_json(run, file); }
    show(file, passing, wanted);

@@ -124,7 +124,7 @@ def test_without_matplotlib_the_run_is_not_lost(run):
 def test_without_python_the_run_is_not_lost(run):
     empty = run.folder / "empty"
     empty.mkdir()
-    for option, file, kept in (("--plot", "x.png", "x.png.json"), ("--html", "x.html", "x.html.json"), ("--csv", "x", "x_run.json")):
+    for option, file, kept in (("--plot", "x.png", "x.png.json"), ("--html", "x.html", "x.html.json"), ("--csv", "x", "x.csv.json")):
         failed = program(run, option, file, path=empty, code=1)
         refused(failed, "option " + option, file, "needs Python 3", kept)
         assert json.loads(run.text(kept))["status"] == "converged" and not (run.folder / file).exists()
