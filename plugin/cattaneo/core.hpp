@@ -42,6 +42,7 @@
 #include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/reduced/reduction.hpp>
+#include <cattaneo/reduced/surface_mortar.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
 #include <cattaneo/shakedown/estimates.hpp>
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>

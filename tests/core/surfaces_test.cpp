@@ -517,21 +517,28 @@ namespace
 
 /** Two extruded blocks pressed and sheared to and fro, against the plane problem: contact
    forces and openings to 1e-10. With Poisson's ratios supports hold plane strain, so that the
-   blocks stand along axes. Without (`held` false) nothing resists, and they may be turned. */
-void compare_extruded(const std::vector<Matrix3d> &turns, bool held)
+   blocks stand along axes. Without (`held` false) nothing resists, and they may be turned. If
+   the lower block has another number of cells along the contact, the upper one is the slave. */
+void compare_extruded(const std::vector<Matrix3d> &turns, bool held, int lower_cells = 6)
 {
+   const bool matching = lower_cells == 6;
    const Vector3d low(0, -1, 0), up(0, 0, 0);
    const double friction = 0.4, thick = 0.7, of_upper = held ? 0.3 : 0,
                 of_lower = held ? 0.2 : 0;
    const std::vector<Eigen::Vector2d> path = {{1, 0},    {1, 0.2}, {1, 0.3},
                                               {1, 0.36}, {1, 0.1}, {1, -0.33}};
    NodalStiffness above = plane_block(6, 3, up, {3, 2, 0}, 2, of_upper),
-                  below = plane_block(6, 3, low, {3, 1, 0}, 5, of_lower);
+                  below = plane_block(lower_cells, 3, low, {3, 1, 0}, 5, of_lower);
    for (int c : {1, 2}) { below.fix(below.nodes_of("BOTTOM"), c); }
    above.add_traction("P", above.nodes_of("TOP"), Eigen::Vector2d(0, -1));
    above.add_traction("Q", above.nodes_of("TOP"), Eigen::Vector2d(1, 0));
    const CondensedBody one = on_line(above, "BOTTOM"), two = on_line(below, "TOP");
-   const Reduction plane = reduce(one, two, pair_lines(one.line, two.line));
+   Interface between;
+   between.first = {0, one.line};
+   between.second = {1, two.line};
+   between.slave = SlaveSide::first;
+   const Reduction plane = matching ? reduce(one, two, pair_lines(one.line, two.line))
+                                    : reduce({one, two}, {between});
    std::vector<VectorXd> loads(path.begin(), path.end());
    const std::vector<ContactState> expected = solved(plane.problem, friction, loads);
    const Eigen::Index n = plane.problem.nodes();
@@ -553,7 +560,7 @@ void compare_extruded(const std::vector<Matrix3d> &turns, bool held)
       {
          NodalStiffness upper = block({6, 3, layers}, up, {3, 2, thick}, 2, of_upper,
                                       Solid::hexahedra, turn),
-                        lower = block({6, 3, layers}, low, {3, 1, thick}, 5, of_lower,
+                        lower = block({lower_cells, 3, layers}, low, {3, 1, thick}, 5, of_lower,
                                       Solid::hexahedra, turn);
          int through = 0;
          turn.col(2).maxCoeff(&through);
@@ -566,8 +573,12 @@ void compare_extruded(const std::vector<Matrix3d> &turns, bool held)
          upper.add_surface_traction("Q", upper.nodes_of("TOP"), Vector3d(turn.col(0)));
          const CondensedBody first = on_surface(upper, "BOTTOM"),
                              second = on_surface(lower, "TOP");
+         between.first = {0, {}, first.surface};
+         between.second = {1, {}, second.surface};
          const Reduction reduction =
-            reduce(first, second, pair_surfaces(first.surface, second.surface));
+            matching ? reduce(first, second, pair_surfaces(first.surface, second.surface))
+                     : reduce({first, second}, {between});
+         EXPECT_EQ(reduction.interfaces[0].matching, matching);
          const ReducedProblem &problem = reduction.problem;
          ASSERT_EQ(problem.nodes(), n * (layers + 1));
          EXPECT_EQ(static_cast<Eigen::Index>(problem.held.size()), held ? problem.nodes() : 0);
@@ -608,6 +619,185 @@ TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOne)
 TEST(Surfaces, ExtrudedPlaneProblemIsThePlaneOneHoweverItIsTurned)
 {
    compare_extruded({Matrix3d::Identity(), askew, askew * askew}, false);
+}
+
+TEST(Surfaces, ExtrudedMortarIsThatOfThePlane)
+{
+   for (const int lower_cells : {4, 7})
+   {
+      compare_extruded({Matrix3d::Identity()}, true, lower_cells);
+      compare_extruded({askew}, false, lower_cells);
+   }
+}
+
+namespace
+{
+
+/// All outer faces of a block carry the tractions of one stress, but those of a set.
+void add_stress(NodalStiffness &body, const Matrix3d &stress, const Matrix3d &turn,
+                const Vector3d &from, const Vector3d &size, const std::string &but)
+{
+   for (int c : {0, 1, 2})
+   {
+      for (const bool last : {false, true})
+      {
+         Nodes nodes;
+         for (const auto &[node, place] : body.places)
+         {
+            const Vector3d x = turn.transpose() * Vector3d(place[0], place[1], body.z.at(node));
+            if (std::abs(x[c] - from[c] - (last ? size[c] : 0)) < 1e-9)
+            {
+               nodes.push_back(node);
+            }
+         }
+         if (c == 1 && last == (but == "TOP")) { continue; }
+         const Vector3d normal = (last ? 1 : -1) * turn.col(c);
+         body.add_surface_traction("P", nodes, stress * normal);
+      }
+   }
+}
+
+} // namespace
+
+/// Two blocks of one material under a uniform stress, with other elements on each side: every
+/// node of either side has the force of the stress on its part of the interface.
+TEST(Surfaces, ConstantStressPassesMeshesThatDoNotMatch)
+{
+   Matrix3d stress;
+   stress << -1, 0.2, 0.1, 0.2, -2, 0.15, 0.1, 0.15, -0.7;
+   struct Case
+   {
+      Solid upper, lower;
+      int order_upper, order_lower;
+      bool distorted;
+   };
+   const std::vector<Case> cases = {{Solid::hexahedra, Solid::hexahedra, 1, 1, false},
+                                    {Solid::hexahedra, Solid::hexahedra, 1, 1, true},
+                                    {Solid::hexahedra, Solid::tetrahedra, 1, 1, false},
+                                    {Solid::tetrahedra, Solid::wedges, 1, 1, false},
+                                    {Solid::tetrahedra, Solid::hexahedra, 2, 1, false},
+                                    {Solid::hexahedra, Solid::hexahedra, 2, 2, false},
+                                    {Solid::wedges, Solid::tetrahedra, 2, 2, false},
+                                    {Solid::tetrahedra, Solid::hexahedra, 2, 2, true}};
+   for (std::size_t k = 0; k < cases.size(); ++k)
+   {
+      const Case &each = cases[k];
+      const Matrix3d turn = k % 2 == 0 ? Matrix3d(Matrix3d::Identity()) : askew;
+      // Moves nodes along the interface, but not those at its edges.
+      const auto bend = [&](const Vector3d &place)
+      {
+         Vector3d x = turn.transpose() * place;
+         const double bump = 0.08 * std::sin(M_PI * x[0] / 2) * std::sin(M_PI * x[2]);
+         x += bump * Vector3d(std::cos(7 * x[2] + 3 * x[0]), 0, std::sin(5 * x[0]));
+         return Vector3d(turn * x);
+      };
+      const auto if_distorted = each.distorted && each.order_upper == 1
+                                   ? std::function<Vector3d(const Vector3d &)>(bend)
+                                   : nullptr;
+      const Vector3d up(0, 0, 0), low(0, -0.5, 0), size(2, 0.5, 1);
+      NodalStiffness upper = block({4, 1, 2}, up, size, 10, 0.3, each.upper, turn,
+                                   each.order_upper, if_distorted),
+                     lower = block({3, 1, 3}, low, size, 10, 0.3, each.lower, turn,
+                                   each.order_lower, if_distorted);
+      const Matrix3d turned = turn * stress * turn.transpose();
+      add_stress(upper, turned, turn, up, size, "BOTTOM");
+      add_stress(lower, turned, turn, low, size, "TOP");
+      const CondensedBody above = on_surface(upper, "BOTTOM"), below = on_surface(lower, "TOP");
+      for (const bool tied : {false, true})
+      {
+         for (const SlaveSide slave : {SlaveSide::first, SlaveSide::second})
+         {
+            Interface between;
+            between.first = {0, {}, above.surface};
+            between.second = {1, {}, below.surface};
+            between.slave = slave;
+            between.tied = tied;
+            const Reduction reduction = reduce({above, below}, {between});
+            EXPECT_FALSE(reduction.interfaces[0].matching);
+            EXPECT_EQ(reduction.interfaces[0].left_out, 0);
+            MatrixXd on_upper, on_lower;
+            if (tied)
+            {
+               const VectorXd none, load = VectorXd::Constant(1, 1),
+                                    forces = reduction.tied_forces(none, none, load);
+               on_upper = reduction.contact_forces(0, none, none, forces);
+               on_lower = reduction.contact_forces(1, none, none, forces);
+            }
+            else
+            {
+               const ContactState state =
+                  solved(reduction.problem, 0.5, {VectorXd::Constant(1, 1)}).front();
+               for (NodeState node : state.status) { EXPECT_EQ(node, NodeState::stick); }
+               on_upper = reduction.contact_forces(0, state.q, state.p);
+               on_lower = reduction.contact_forces(1, state.q, state.p);
+            }
+            const auto expect =
+               [&](const ContactSurface &surface, const MatrixXd &found, const Vector3d &normal)
+            {
+               const Vector3d traction = turned * normal;
+               const VectorXd areas = surface.forces_at_nodes(surface.weights());
+               EXPECT_LT(largest(found - areas * traction.transpose()),
+                         1e-11 * areas.maxCoeff())
+                  << "case " << k << (tied ? " tied" : "") << (surface.size());
+            };
+            expect(above.surface, on_upper, -turn.col(1));
+            expect(below.surface, on_lower, turn.col(1));
+         }
+      }
+   }
+}
+
+/// A small block on a large one, whose edges cut its elements: the forces on both bodies are in
+/// balance, and so are their moments, whichever side has the nodes.
+TEST(Surfaces, FacesThatAreCoveredInPartKeepBothBodiesInBalance)
+{
+   for (const int order : {1, 2})
+   {
+      for (const Solid solid : {Solid::hexahedra, Solid::tetrahedra})
+      {
+         NodalStiffness upper = block({3, 1, 3}, {0.37, 0, 0.23}, {1, 0.5, 1.1}, 1, 0.3, solid,
+                                      Matrix3d::Identity(), order),
+                        lower = block({5, 1, 4}, {0, -0.5, 0}, {2, 0.5, 1.5}, 3, 0.2, solid,
+                                      Matrix3d::Identity(), order);
+         for (int c : {1, 2, 3}) { lower.fix(lower.nodes_of("BOTTOM"), c); }
+         upper.add_surface_traction("P", upper.nodes_of("TOP"), Vector3d(0.1, -1, 0.05));
+         const CondensedBody above = on_surface(upper, "BOTTOM"),
+                             below = on_surface(lower, "TOP");
+         for (const SlaveSide slave : {SlaveSide::coarser, SlaveSide::first, SlaveSide::second})
+         {
+            Interface between;
+            between.first = {0, {}, above.surface};
+            between.second = {1, {}, below.surface};
+            between.slave = slave;
+            const Reduction reduction = reduce({above, below}, {between});
+            // The side within the other one is the slave.
+            EXPECT_EQ(reduction.interfaces[0].of_second, slave == SlaveSide::second);
+            EXPECT_NEAR(reduction.problem.weights.sum(), 1.1, 1e-12);
+            EXPECT_GT(reduction.problem.weights.minCoeff(), 0);
+            const ContactState state =
+               solved(reduction.problem, 0.4, {VectorXd::Constant(1, 1)}).front();
+            const MatrixXd on_upper = reduction.contact_forces(0, state.q, state.p),
+                           on_lower = reduction.contact_forces(1, state.q, state.p);
+            const auto moment = [](const ContactSurface &surface, const MatrixXd &forces)
+            {
+               Vector3d sum(0, 0, 0);
+               for (Eigen::Index i = 0; i < surface.size(); ++i)
+               {
+                  const Vector3d force = forces.row(i);
+                  sum += surface.nodes[i].position.cross(force);
+               }
+               return sum;
+            };
+            EXPECT_LT(
+               (on_upper.colwise().sum() - 1.1 * Eigen::RowVector3d(-0.1, 1, -0.05)).norm(),
+               1e-12);
+            EXPECT_LT((on_upper.colwise().sum() + on_lower.colwise().sum()).norm(), 1e-12);
+            EXPECT_LT(
+               (moment(above.surface, on_upper) + moment(below.surface, on_lower)).norm(),
+               1e-12);
+         }
+      }
+   }
 }
 
 TEST(Surfaces, TurnedBodiesHaveTheSameContact)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/condense/contact_surface.hpp>
+#include <cattaneo/condense/face_functions.hpp>
 #include <cattaneo/condense/middles.hpp>
 #include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
@@ -26,11 +27,6 @@ struct FaceShare
    Vector3d area{0, 0, 0};
 };
 
-std::size_t corners_of(const std::size_t nodes)
-{
-   return nodes == 3 || nodes == 6 || nodes == 10 ? 3 : 4;
-}
-
 /// Faces of order 3 have two nodes on each edge.
 bool is_cubic(const std::size_t nodes)
 {
@@ -47,10 +43,6 @@ std::vector<std::array<int, 2>> thirds_of(const std::size_t nodes)
    return {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {1, 0}, {2, 0}, {3, 1}, {3, 2},
            {2, 3}, {1, 3}, {0, 2}, {0, 1}, {1, 1}, {2, 1}, {2, 2}, {1, 2}};
 }
-
-/// The functions of a face at 0 <= s, t <= 1 (of a triangle s + t <= 1), and in columns 1 and 2
-/// their derivatives.
-using FaceFunctions = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 16, 3>;
 
 /// The product t (t - 1) … of `factors` factors, t = 3 x, over its value at t = `factors`, and
 /// its derivative by x: 1 at one third of a line and 0 at all before it.
@@ -164,9 +156,7 @@ std::vector<FaceShare> shares_of(const std::vector<Vector3d> &x)
          const double s = rule.points[i], narrow = triangle ? 1 - s : 1,
                       t = narrow * rule.points[j],
                       weight = narrow * rule.weights[i] * rule.weights[j];
-         const FaceFunctions of = is_cubic(x.size()) ? cubic_functions(x.size(), s, t)
-                                  : triangle         ? triangle_functions(x.size(), s, t)
-                                                     : quadrilateral_functions(x.size(), s, t);
+         const FaceFunctions of = face_functions(x.size(), s, t);
          Vector3d along(0, 0, 0), across(0, 0, 0);
          for (std::size_t a = 0; a < x.size(); ++a)
          {
@@ -253,6 +243,18 @@ void turn_round(std::vector<Index> &face)
 }
 
 } // namespace
+
+std::size_t corners_of(const std::size_t nodes)
+{
+   return nodes == 3 || nodes == 6 || nodes == 10 ? 3 : 4;
+}
+
+FaceFunctions face_functions(const std::size_t nodes, double s, double t)
+{
+   return is_cubic(nodes)          ? cubic_functions(nodes, s, t)
+          : corners_of(nodes) == 3 ? triangle_functions(nodes, s, t)
+                                   : quadrilateral_functions(nodes, s, t);
+}
 
 bool is_face(std::size_t nodes)
 {

@@ -3,7 +3,9 @@
 #include <cattaneo/condense/trace.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/surfaces.hpp>
+#include <cattaneo/rounded.hpp>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace cattaneo
@@ -100,8 +102,9 @@ VectorXd gaps_of_unknowns(const ContactSurface &surface, const VectorXd &gaps)
    return made;
 }
 
-/// The gaps that a caller gave for the nodes of the slave, those of the pairing, or zeros.
-VectorXd gaps_of(const Interface &given, const MetInterface &met)
+/// The gaps that a caller gave for the nodes of the slave, or those of the geometry; empty if
+/// neither is there.
+VectorXd gaps_of(const Interface &given, const MetInterface &met, VectorXd of_geometry)
 {
    const ContactSurface &surface = met.slave.surface;
    const Index n = surface.size();
@@ -110,10 +113,7 @@ VectorXd gaps_of(const Interface &given, const MetInterface &met)
       require(given.node_gaps->size() == n, met.what, ": ", given.node_gaps->size(),
               " gaps for ", n, " nodes of the side that has them, must be as many");
    }
-   else if (!given.gap)
-   {
-      return given.pairing ? given.pairing->gap : VectorXd(VectorXd::Zero(n));
-   }
+   else if (!given.gap) { return of_geometry; }
    VectorXd gaps(n);
    for (Index i = 0; i < n; ++i)
    {
@@ -190,7 +190,268 @@ ContactRow row_of_pair(const std::vector<CondensedBody> &bodies, const NodeOfBod
    return row;
 }
 
+/// The row of a contact node of the mortar, and what supports do not allow (empty: nothing).
+ContactRow row_of_mortar(const std::vector<CondensedBody> &bodies, const MetInterface &met,
+                         Index i, std::string &refused)
+{
+   const SurfaceMortar &mortar = met.surfaces;
+   const int number = mortar.nodes[i];
+   const SurfaceNode &own = met.slave.surface.nodes[number];
+   const CondensedBody &slave = bodies[met.slave.body];
+   ContactRow row;
+   row.slave = {met.slave.body, met.slave.nodes[number]};
+   const auto add =
+      [&row](const Side &side, const SurfaceMortar::Matrix &shares, Index of, double sign)
+   {
+      for (SurfaceMortar::Matrix::InnerIterator e(shares, of); e; ++e)
+      {
+         // Round-off would connect nodes that do not face each other.
+         const double share = sign * e.value();
+         if (std::abs(share) <= 1e-14) { continue; }
+         const NodeOfBody node(side.body, side.nodes[e.col()]);
+         const auto same = [&node](const TraceShare &one) { return one.of == node; };
+         const auto found = std::find_if(row.shares.begin(), row.shares.end(), same);
+         if (found == row.shares.end()) { row.shares.push_back({node, share, share, share}); }
+         else { *found = {node, found->x + share, found->y + share, found->z + share}; }
+      }
+   };
+   add(met.slave, mortar.own, i, 1);
+   add(met.master, mortar.other, i, -1);
+   // 1. The mean normal lies in the planes in which supports hold the node.
+   const int node = row.slave.second;
+   Vector3d normal = mortar.normal.row(i);
+   for (int k : {0, 1})
+   {
+      const Vector3d tangent = own.frame.row(k);
+      if (is_held(slave, node, tangent)) { normal -= normal.dot(tangent) * tangent; }
+   }
+   normal.normalize();
+   const Vector3d along = own.frame.row(0),
+                  first = (along - normal.dot(along) * normal).normalized();
+   row.axes << first.transpose(), normal.cross(first).transpose(), normal.transpose();
+   // 2. What both sides hold along the surface does not slide.
+   const std::string where = met.what + ": the contact node at " + called(own),
+                     other_slave = met.of_second ? "first" : "second";
+   if (is_held(slave, node, own.normal()))
+   {
+      refused = where +
+                " is fixed normal to the surface, so that it cannot open: end the "
+                "contact before it, or make the other side the slave (slave: " +
+                other_slave + ")";
+   }
+   for (int k : {0, 1})
+   {
+      const Vector3d tangent = row.axes.row(k);
+      if (!is_held(slave, node, tangent)) { continue; }
+      row.slides[k] = false;
+      bool both = false;
+      for (SurfaceMortar::Matrix::InnerIterator e(mortar.other, i); e; ++e)
+      {
+         const SurfaceNode &its = met.master.surface.nodes[e.col()];
+         const double off = std::abs((its.position - own.position).dot(tangent));
+         both = both || (off <= 1e-6 * its.spacing &&
+                         is_held(bodies[met.master.body], met.master.nodes[e.col()], tangent));
+      }
+      if (!both)
+      {
+         refused = where +
+                   " is fixed along the surface, but the side that it faces is not: "
+                   "make the other side the slave (slave: " +
+                   other_slave + "), or fix it there as well";
+      }
+   }
+   return row;
+}
+
+/// Makes the rows of sides whose nodes do not match, and says why not in `refused`.
+std::vector<ContactRow> rows_with_slave(const std::vector<CondensedBody> &bodies,
+                                        JoinedNodes &joined, MetInterface &met,
+                                        std::string &refused)
+{
+   std::vector<ContactRow> rows;
+   met.without_row.clear();
+   // Each node without a row passes its part to others, whose rows may then close a ring.
+   for (bool again = true; again;)
+   {
+      again = false;
+      rows.clear();
+      refused.clear();
+      met.surfaces = mortar(met.slave.surface, met.master.surface, met.without_row, met.what);
+      JoinedNodes trial = joined;
+      for (Index i = 0; i < static_cast<Index>(met.surfaces.nodes.size()); ++i)
+      {
+         std::string why;
+         rows.push_back(row_of_mortar(bodies, met, i, why));
+         if (refused.empty()) { refused = why; }
+         std::vector<NodeOfBody> by;
+         for (const TraceShare &share : rows.back().shares)
+         {
+            if (share.of != rows.back().slave) { by.push_back(share.of); }
+         }
+         if (trial.determine(rows.back().slave, by)) { continue; }
+         met.without_row.push_back(met.surfaces.nodes[i]);
+         again = true;
+      }
+      if (!again && refused.empty()) { joined = std::move(trial); }
+   }
+   return rows;
+}
+
+/** The slave is the side that lies within the other one, else the coarser one, whose nodes are
+    farther apart in the geometric mean, else the first, unless the caller named it. If supports
+    do not let it be the slave, the other side is. */
+std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
+                                       JoinedNodes &joined, MetInterface &met)
+{
+   const Interface &given = *met.given;
+   const bool free = given.slave == SlaveSide::coarser || given.slave == SlaveSide::finer;
+   const auto exchange = [&met]
+   {
+      std::swap(met.slave, met.master);
+      met.of_second = !met.of_second;
+   };
+   if (free)
+   {
+      const auto within = [&met](const Side &one, const Side &other)
+      { return is_within(one.surface, other.surface, met.what); };
+      const bool first = within(met.slave, met.master), second = within(met.master, met.slave);
+      const auto spacing = [](const ContactSurface &surface)
+      {
+         double sum = 0;
+         for (const SurfaceNode &node : surface.nodes) { sum += std::log(node.spacing); }
+         return sum / static_cast<double>(surface.size());
+      };
+      const auto stiffness = [&bodies](const Side &side)
+      {
+         const VectorXd all = bodies[side.body].S.diagonal();
+         const Index n = all.size() / 3;
+         return (all.head(n) + all.segment(n, n) + all.tail(n))(side.nodes).sum();
+      };
+      const double coarser = spacing(met.master.surface) - spacing(met.slave.surface),
+                   same = 0.01; // more than round-off
+      const bool by_spacing = std::abs(coarser) <= same
+                                 ? stiffness(met.slave) > 10 * stiffness(met.master)
+                              : given.slave == SlaveSide::coarser ? coarser > 0
+                                                                  : coarser < 0;
+      if (first == second ? by_spacing : second) { exchange(); }
+   }
+   std::string refused;
+   std::vector<ContactRow> rows = rows_with_slave(bodies, joined, met, refused);
+   if (!refused.empty() && free)
+   {
+      exchange();
+      std::string other;
+      rows = rows_with_slave(bodies, joined, met, other);
+      if (other.empty()) { refused.clear(); }
+   }
+   require(refused.empty(), refused);
+   const SurfaceMortar &found = met.surfaces;
+   met.mortar.nodes = found.nodes;
+   met.mortar.weights = found.weights;
+   met.mortar.gap = found.gap;
+   for (Index i = 0; i < found.gap.size() && !given.gap && !given.node_gaps && !given.tied; ++i)
+   {
+      const double most = given.most_overlap * found.size[i];
+      require(found.gap[i] >= -most, met.what, ": the sides overlap by ",
+              rounded(-found.gap[i]), " at ", called(met.slave.surface.nodes[found.nodes[i]]),
+              ", must be at most ", rounded(most), " (", given.most_overlap,
+              " of the face's edge): ",
+              found.gap[i] < -found.size[i]
+                 ? "are these the sides that touch, and are the bodies in their places?"
+                 : "allow more for an interference fit, or give the gap");
+   }
+   if (given.gap || given.node_gaps) { met.mortar.gap = gaps_of(given, met, {})(found.nodes); }
+   return rows;
+}
+
+/// The pairs of two sides, if every node has a partner and the faces between them are the same
+/// (or none are known): equal tractions then give equal forces on nodes that face each other.
+std::optional<Pairing> matching_nodes(const ContactSurface &slave, const ContactSurface &master)
+{
+   if (slave.size() != master.size() || slave.faces.size() != master.faces.size())
+   {
+      return {};
+   }
+   Pairing pairs;
+   try
+   {
+      pairs = pair_surfaces(slave, master);
+   }
+   catch (const InputError &)
+   {
+      return {};
+   }
+   std::set<std::set<Index>> own, its;
+   for (const std::vector<Index> &face : slave.faces)
+   {
+      std::set<Index> nodes;
+      for (Index node : face) { nodes.insert(pairs.partner[node]); }
+      own.insert(nodes);
+   }
+   for (const std::vector<Index> &face : master.faces)
+   {
+      its.emplace(face.begin(), face.end());
+   }
+   return own == its ? std::optional<Pairing>(pairs) : std::nullopt;
+}
+
 } // namespace
+
+NodeOfBody JoinedNodes::root(NodeOfBody node) const
+{
+   for (auto found = up_.find(node); found != up_.end(); found = up_.find(node))
+   {
+      node = found->second;
+   }
+   return node;
+}
+
+bool JoinedNodes::is_determined(const NodeOfBody &group) const
+{
+   return by_.count(group) > 0 || group == root({-1, 0});
+}
+
+bool JoinedNodes::depends(const NodeOfBody &one, const NodeOfBody &other) const
+{
+   std::set<NodeOfBody> seen;
+   std::vector<NodeOfBody> open{one};
+   while (!open.empty())
+   {
+      const NodeOfBody next = open.back();
+      open.pop_back();
+      if (next == other) { return true; }
+      const auto found = by_.find(next);
+      if (found == by_.end() || !seen.insert(next).second) { continue; }
+      for (const NodeOfBody &node : found->second) { open.push_back(root(node)); }
+   }
+   return false;
+}
+
+bool JoinedNodes::join(const NodeOfBody &one, const NodeOfBody &other)
+{
+   const NodeOfBody a = root(one), b = root(other);
+   const bool both = is_determined(a) && is_determined(b);
+   if (both || depends(a, b) || depends(b, a)) { return false; }
+   up_[a] = b;
+   if (const auto found = by_.find(a); found != by_.end())
+   {
+      by_[b] = found->second;
+      by_.erase(a);
+   }
+   return true;
+}
+
+bool JoinedNodes::determine(const NodeOfBody &slave, const std::vector<NodeOfBody> &by)
+{
+   const NodeOfBody group = root(slave);
+   if (is_determined(group)) { return false; }
+   for (const NodeOfBody &node : by)
+   {
+      if (depends(root(node), group)) { return false; }
+   }
+   by_[group] = by;
+   return true;
+}
 
 std::vector<ContactRow> rows_on_surfaces(const Interface &given,
                                          const std::vector<CondensedBody> &bodies,
@@ -211,19 +472,20 @@ std::vector<ContactRow> rows_on_surfaces(const Interface &given,
    }
    met.slave = surface_side(turned ? given.second : given.first, bodies, met.what);
    std::vector<int> partners;
+   VectorXd gaps = VectorXd::Zero(met.slave.surface.size());
    if (!on_obstacle)
    {
       met.master = surface_side(turned ? given.first : given.second, bodies, met.what);
       Interface paired = given;
       if (!paired.pairing)
       {
-         paired.pairing = pair_surfaces(met.slave.surface, met.master.surface, 1e-6, met.what);
+         paired.pairing = matching_nodes(met.slave.surface, met.master.surface);
+         if (!paired.pairing) { return rows_of_mortar(bodies, joined, met); }
       }
       partners = partners_of(paired, met);
-      met.mortar.gap = gaps_of(paired, met);
+      gaps = paired.pairing->gap;
    }
-   else { met.mortar.gap = gaps_of(given, met); }
-   const VectorXd gaps = met.mortar.gap;
+   gaps = gaps_of(given, met, gaps);
    std::vector<ContactRow> rows;
    std::vector<double> weights, kept;
    for (int i = 0; i < static_cast<int>(met.slave.nodes.size()); ++i)
@@ -293,7 +555,7 @@ InterfaceReport report_on_surfaces(const MetInterface &met, const std::vector<Co
    report.nodes = met.nodes();
    report.tied = met.given->tied;
    report.of_second = met.of_second;
-   report.matching = met.master.body >= 0;
+   report.matching = !met.facing.empty();
    report.weights = met.mortar.weights;
    report.spacing.resize(report.nodes);
    report.turn = VectorXd::Zero(report.nodes);
@@ -306,10 +568,16 @@ InterfaceReport report_on_surfaces(const MetInterface &met, const std::vector<Co
       report.frames.row(i) << axes.row(0), axes.row(1), axes.row(2);
       report.places.row(i) = node.position;
       report.spacing[i] = node.spacing;
-      if (met.master.body < 0) { continue; }
+      if (met.facing.empty()) { continue; }
       const Vector3d normal = met.master.surface.nodes[met.facing[i]].normal();
       report.turn[i] =
          std::atan2(node.normal().cross(-normal).norm(), node.normal().dot(-normal));
+   }
+   if (met.surfaces.nodes.size() > 0)
+   {
+      report.turn = met.surfaces.turn;
+      report.chords = met.surfaces.chords;
+      report.left_out = met.surfaces.left_out;
    }
    for (int k : met.without_row)
    {
@@ -330,7 +598,7 @@ void add_surface_facts(ReducedProblem &problem, Index first, const MetInterface 
       for (int c = 0; c < 3; ++c)
       {
          problem.dofs(first + i, 3 * met.slave.body + c) = node.dofs[c];
-         if (met.master.body < 0) { continue; }
+         if (met.facing.empty()) { continue; }
          problem.dofs(first + i, 3 * met.master.body + c) =
             met.master.surface.nodes[met.facing[i]].dofs[c];
       }

@@ -2,6 +2,7 @@
 
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>
+#include <cattaneo/reduced/surface_mortar.hpp>
 #include <cattaneo/reduced/union.hpp>
 
 namespace cattaneo
@@ -27,7 +28,9 @@ struct MetInterface
    /// In space only its nodes, gaps and weights are set.
    Mortar mortar;
    std::vector<int> without_row; ///< nodes of the slave
-   std::vector<int> facing = {}; ///< in space, of each contact node: the node of the master
+   /// In space, of each contact node: the node of the master. Empty if the nodes do not match.
+   std::vector<int> facing = {};
+   SurfaceMortar surfaces = {}; ///< in space, of nodes that do not match
 
    Eigen::Index nodes() const { return static_cast<Eigen::Index>(mortar.nodes.size()); }
 };

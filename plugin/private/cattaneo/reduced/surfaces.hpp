@@ -6,33 +6,32 @@
 namespace cattaneo
 {
 
-/// The groups of nodes that rows of contact nodes join; an obstacle counts as body -1.
+/** What the rows of contact nodes in space determine. Rows of two nodes join them into groups;
+    an obstacle counts as body -1. One node of a group determines the others. A row of the
+   mortar determines its slave, and thereby the slave's group, by nodes of other groups. */
 class JoinedNodes
 {
 public:
-   /// Joins two nodes; false if other rows have joined them already.
-   bool join(const NodeOfBody &one, const NodeOfBody &other)
-   {
-      const NodeOfBody a = root(one), b = root(other);
-      if (a != b) { up_[a] = b; }
-      return a != b;
-   }
+   /// Joins two nodes; false if other rows determine one by the other, or both, already.
+   bool join(const NodeOfBody &one, const NodeOfBody &other);
+   /// Determines a slave by other nodes; false if other rows determine it already, or if it
+   /// would depend on itself.
+   bool determine(const NodeOfBody &slave, const std::vector<NodeOfBody> &by);
 
 private:
-   NodeOfBody root(NodeOfBody node) const
-   {
-      for (auto found = up_.find(node); found != up_.end(); found = up_.find(node))
-      {
-         node = found->second;
-      }
-      return node;
-   }
+   NodeOfBody root(NodeOfBody node) const;
+   bool is_determined(const NodeOfBody &root) const;
+   /// Does one group depend on another one, or is it the same?
+   bool depends(const NodeOfBody &root_of_one, const NodeOfBody &root_of_other) const;
+
    std::map<NodeOfBody, NodeOfBody> up_;
+   /// Of groups with a slave: the nodes that determine it.
+   std::map<NodeOfBody, std::vector<NodeOfBody>> by_;
 };
 
-/// The rows of an interface of bodies in space, whose nodes match or that lies on an obstacle.
-/// Fills in its data in `met`. InputError if sides or pairing do not fit, or supports hold a
-/// normal component on both sides.
+/// The rows of an interface of bodies in space: of nodes that match, or on an obstacle, or of
+/// the mortar. Fills in its data in `met`. InputError if sides or pairing do not fit, or
+/// supports hold a normal component on both sides.
 std::vector<ContactRow> rows_on_surfaces(const Interface &given,
                                          const std::vector<CondensedBody> &bodies,
                                          JoinedNodes &joined, MetInterface &met);
