@@ -702,8 +702,6 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    if (key.has("slave"))
    {
       const std::string word = key["slave"].choice(slaves);
-      require(!in_space || word == "first" || word == "second", key["slave"].called(), ": '",
-              word, "': nodes match in space, the slave must be first or second");
       made.slave =
          static_cast<SlaveSide>(std::find(slaves.begin(), slaves.end(), word) - slaves.begin());
    }
