@@ -69,7 +69,8 @@ Reduction reduced_pair(const CondensedBody &body, const CondensedBody &other,
    if (given) { return reduce(body, other, *given); }
    if (body.surface.size() > 0 && other.surface.size() > 0)
    {
-      return reduce(body, other, pair_surfaces(body.surface, other.surface));
+      return reduce({body, other},
+                    {{"contact", {0, {}, body.surface}, {1, {}, other.surface}}});
    }
    const Pairing pairs = pair_lines(body.line, other.line);
    const auto knows_elements = [](const CondensedBody &of)
@@ -219,7 +220,7 @@ void bind_reductions(nb::module_ &m)
          "largest accepted overlap of the geometry, in lengths of the slave's elements.\ntied: "
          "joined permanently, without nodes in the problem; see "
          "Reduction.tied_forces().\npairing: nodes one to one, from pair_lines() or "
-         "pair_surfaces(); without it nodes need not match, but in space they must.")
+         "pair_surfaces(); without it nodes need not match.")
       .def_ro("name", &Interface::name)
       .def("__repr__",
            [](const Interface &self)
@@ -404,8 +405,10 @@ void bind_reductions(nb::module_ &m)
       arg("body"), arg("other"), arg("pairing") = nb::none(), nb::kw_only(),
       arg("torsion") = nb::tuple(),
       "Two bodies whose nodes match, `body` on the `other`. If nodes are at the same places "
-      "but elements differ, the bodies meet as at an interface. pairing: from pair_lines(); it "
-      "is used whatever the elements, with a warning (OutcomeWarning) if they differ.");
+      "but elements differ, the bodies meet as at an interface. In space they do so if nodes "
+      "do "
+      "not match, too. pairing: from pair_lines() or pair_surfaces(); it is used whatever the "
+      "elements, with a warning (OutcomeWarning) if they differ.");
    m.def(
       "reduce",
       [](const CondensedBody &body, Numbers gap)
