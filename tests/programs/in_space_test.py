@@ -349,7 +349,7 @@ BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
     ({"plane": {"point": [0, 0, 0.5], "normal": [0, 0, 1]}}, (*FLOOR, "obstacle"), ["overlap by 0.5", "obstacle"]),
     ([[1, 0.3]], (*FLOOR, "strength"), ["strength", "not for bodies in space"]),
     (0.1, (*FLOOR, "pairing"), ["pairing", "not for bodies in space"]),
-    ("larger", (*FLOOR, "slave"), ["coarser, finer, first or second"]),
+    ("larger", (*FLOOR, "slave"), ["larger", "is not one of", "coarser", "second"]),
     ([[0, 0.3], [1, 0.4]], (*FLOOR, "friction"), ["function of the place"]),
     ("x-1", (*FLOOR, "friction"), ["friction", "is -1", "not negative"]),
     ({"D": {"angle": 1}}, (*FLOOR, "motion"), ["angle", "not for bodies in space"]),
