@@ -465,3 +465,28 @@ def test_supports_of_one_body_alone(young):
         forces.append(reduction.contact_forces(of_upper, state))
     assert forces[0].sum(axis=0) == pytest.approx([-0.14, 1.4, -0.07])
     assert forces[1] == pytest.approx(forces[0], abs=1e-11) and forces[2] == pytest.approx(forces[0], abs=1e-11)
+
+
+def test_blocks_whose_nodes_do_not_match():
+    """A column of two blocks with other elements each carries one pressure, whichever side has the nodes."""
+    lower = block(np.linspace(0, 1, 4), np.linspace(-1, 0, 3), np.linspace(0, 1, 3), 1, 0, "lower")
+    upper = block(np.linspace(0, 1, 3), np.linspace(0, 1, 3), np.linspace(0, 1, 5), 1, 0, "upper")
+    pressed(lower, upper, {"all": "xyz", "P": (0, -1, 0), "Q": (0, 0, 0)})
+    above, below = (cattaneo.condense(body, body.contact_surface(body.places[:, 1] == 0)) for body in (upper, lower))
+    with pytest.raises(cattaneo.InputError, match="without a partner"):
+        cattaneo.pair_surfaces(above.surface, below.surface)
+    for reduction in (
+        cattaneo.reduce(above, below),
+        *(
+            cattaneo.reduce([above, below], [cattaneo.Interface("face", (0, above.surface), (1, below.surface), slave=slave)])
+            for slave in ("first", "second")
+        ),
+    ):
+        problem, face = reduction.problem, reduction.interfaces[0]
+        assert not face.matching and face.left_out == 0
+        assert problem.nodes == (12 if face.bodies == (1, 0) else 15)
+        problem.friction = 0.3
+        state = cattaneo.march(problem, [{}, {"P": 1}]).state
+        assert state.p / problem.weights == pytest.approx(np.ones(problem.nodes), abs=1e-11)
+        assert reduction.displacement(0, state)[upper.dofs[upper.places[:, 1] == 1, 1]] == pytest.approx(-2)
+        assert reduction.contact_forces(1, state).sum(axis=0) == pytest.approx([0, -1, 0], abs=1e-12)

@@ -230,6 +230,53 @@ def test_sphere_on_a_block_is_hertz(run):
     near_relative(fine[1], a, fine[2] / 2 + 1e-3)
 
 
+def two_blocks(run, cells, others):
+    """A quarter of two alike blocks with other cells on each side, and the gap of a sphere: peak pressure, radius, its error."""
+    def one(fine, axis_z, **keys):
+        wide = {"points": [0, 1.5, 10], "cells": [fine, 6], "growth": [1, 1.43]}
+        return {"block": {"x": wide, "y": wide, "z": axis_z}, "young": 210e3, "poisson": 0.3, **keys}
+    got = run.case({"analysis": "space", "order": 1, "history": ["P=0", "P=1"], "bodies": {
+        "low": one(cells, {"points": [-10, -1.2, 0], "cells": [6, cells], "growth": [0.7, 1]}, support=["left:x", "front:y", "bottom:z"]),
+        "high": one(others, {"points": [0, 1.2, 10], "cells": [others, 6], "growth": [1, 1.43]}, support=["left:x", "front:y"],
+                    load="P pressure top 7.5")},
+        "interfaces": {"face": {"between": ["low:top", "high:bottom"], "friction": 0, "gap": "(x*x+y*y)/100"}}})
+    area = next(row for row in got["areas"] if row["state"] == "contact")
+    near_relative(got.interface("face")["normal"], 750, 1e-9)
+    near_all([row["imbalance"] for row in got["balance"]], 0, 1e-9)
+    return got["peak_pressure"], math.sqrt(4 * area["area"] / math.pi), area["area_error_estimate"] / area["area"]
+
+
+def test_blocks_that_do_not_match_are_hertz(run):
+    """Two blocks with other cells on each side: peak pressure and radius are Hertz's, to what halving the cells changes."""
+    modulus, radius, force = 210e3 / (1 - 0.3**2) / 2, 50, 3000
+    a = (0.75 * force * radius / modulus) ** (1 / 3)
+    peak = 1.5 * force / (math.pi * a**2)
+    coarse, fine = two_blocks(run, 6, 8), two_blocks(run, 12, 15)
+    change = abs(fine[0] - coarse[0]) / peak
+    assert change < 0.1
+    near_relative(fine[0], peak, change + 2e-3)
+    near_relative(fine[1], a, fine[2] / 2 + 1e-3)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_sides_that_do_not_match_pass_a_pressure(run, order):
+    """A column of three blocks with other elements each: every area carries the pressure, in contact and at a tie."""
+    def one(low, cells, elements, **keys):
+        return {"block": brick(([0, 1], cells), ([0, 1], cells + 1), ([low, low + 1], 2), elements), "young": 1, "poisson": 0.0, **keys}
+    case = {"analysis": "space", "order": order,
+            "bodies": {"top": one(2, 2, "tetrahedra", load="P pressure top 0.03"), "middle": one(1, 3, "hexahedra"),
+                       "foot": one(0, 2, "wedges", support="bottom:xyz")},
+            "interfaces": {"face": {"between": ["top:bottom", "middle:top"], "friction": 0.5},
+                           "glue": {"between": ["middle:bottom", "foot:top"], "tied": True}}}
+    for slave in ("coarser", "finer", "first", "second"):
+        case["interfaces"]["face"]["slave"] = slave
+        got = run.case(case, "--csv", run.folder / "column", "--paraview", run.folder / "fields")
+        near(got.interface("face")["force_z"], 0.03, 1e-12)
+        near(got.interface("glue")["force_z"], 0.03, 1e-12)
+        near_all(run.columns("column_nodes.csv")["p"], 0.03, 1e-11)
+        near_all([row["imbalance"] for row in got["balance"]], 0, 1e-10)
+
+
 def test_the_shipped_sphere_slips_in_a_ring(run):
     case = shipped("sphere_on_block")
     case["bodies"]["block"]["block"]["x"]["cells"] = [3, 10, 3]
