@@ -234,7 +234,7 @@ void contact(Study &study)
       }
       else { beyond_corners.emplace_back(face, own.scene.reduction.bodies); }
    }
-   NamedPoints points(study, joint, own);
+   NamedPoints points(study, joint, own.scene, own.half_plane ? &*own.half_plane : nullptr);
    points.begin(history.state);
    JointReport joint_report(study, joint, own.scene.reduction);
    BoltsReport bolts(study, joint, own.scene.reduction);

@@ -3,6 +3,7 @@
 #include "common/own_history.hpp"
 #include "contact/bolts_report.hpp"
 #include "contact/load_sizes.hpp"
+#include "contact/named_points.hpp"
 #include "contact/own_bolts.hpp"
 #include "contact/own_part.hpp"
 #include "contact/own_warnings.hpp"
@@ -171,6 +172,23 @@ PartInSpace made_part(Scene &scene, const JointCase &joint, const JointCase::Bod
          {
             part.hold("support", one,
                       [&] { add_supports(*part.body, support, one, part.terms); });
+         }
+         for (const JointCase::Body::Guided &each : said.guides)
+         {
+            part.hold("guide", each.on,
+                      [&]
+                      {
+                         const std::string on = each.source.called("on");
+                         const BoundaryPart where = boundary_part(on, each.on, part.terms);
+                         try
+                         {
+                            part.body->guide(where, each.guide);
+                         }
+                         catch (const InputError &error)
+                         {
+                            throw InputError(on + " '" + each.on + "': " + error.what());
+                         }
+                      });
          }
          for (const std::string &one : split(said.load, ";\n"))
          {
@@ -459,6 +477,8 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
       }
       fields.emplace(own.scene.fields(paraview));
    }
+   NamedPoints points(study, joint, own.scene);
+   points.begin(history.state);
    Sketch sketch(study, own.scene);
    const Counters &spent = reduction.counters;
    int frames = 0;
@@ -468,6 +488,7 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
                     report.note(reached, history.cycle);
                     bolts.note(reached);
                     sketch.note(reached);
+                    points.note(reached);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // the cost of the frame is added
                     fields->write(reached);
@@ -480,6 +501,7 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    history.report_state(problem, report.of_state(history.state));
    report.report(history.state, history.report, bolts);
    bolts.report(history.state);
+   points.report(history.state);
    history.report_march(problem);
 }
 

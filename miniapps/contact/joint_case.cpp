@@ -242,7 +242,11 @@ Guide guide_of(const Key &key)
    if (key.has("x")) { made.x = along(key["x"], false); }
    if (key.has("y")) { made.y = along(key["y"], false); }
    if (key.has("rotation")) { made.rotation = along(key["rotation"], true); }
-   if (key.has("centre")) { made.centre = key["centre"].pair(); }
+   if (key.has("centre"))
+   {
+      const std::array<double, 2> at = key["centre"].pair();
+      made.centre = {at[0], at[1], 0};
+   }
    return made;
 }
 
@@ -250,6 +254,28 @@ JointCase::Body::Guided guided(const Key &key)
 {
    key.must_be_of({"on", "x", "y", "rotation", "centre"});
    return {key["on"].text(), guide_of(key), source(key)};
+}
+
+/// The same in space, with three motions along the axes and three about them.
+JointCase::Body::Guided guided_in_space(const Key &key)
+{
+   const std::vector<std::string> ways = {"x",          "y",          "z",
+                                          "rotation-x", "rotation-y", "rotation-z"};
+   key.must_be_of({"on", "x", "y", "z", "rotation-x", "rotation-y", "rotation-z", "centre"});
+   JointCase::Body::Guided made{key["on"].text(), {}, source(key)};
+   Guide &guide = made.guide;
+   const std::array<Guide::Along *, 6> all = {
+      &guide.x, &guide.y, &guide.z, &guide.rotation_x, &guide.rotation_y, &guide.rotation};
+   for (std::size_t k = 0; k < ways.size(); ++k)
+   {
+      if (key.has(ways[k])) { *all[k] = along(key[ways[k]], k >= 3); }
+   }
+   if (key.has("centre"))
+   {
+      const Eigen::Vector3d at = key["centre"].triple();
+      guide.centre = {at[0], at[1], at[2]};
+   }
+   return made;
 }
 
 /// Loads of a half-plane: "Q bulk-stress 40"; those of one name add up.
@@ -324,9 +350,9 @@ JointCase::Body body_in_space(const Key &key, const std::string &name)
    made.name = name;
    made.source = source(key);
    key.must_not_have_in_space(
-      {"part", "split", "matrix", "deck", "half-plane", "geometry", "guides", "thickness"});
+      {"part", "split", "matrix", "deck", "half-plane", "geometry", "thickness"});
    key.must_be_of(
-      {"mesh", "block", "young", "poisson", "order", "expansion", "support", "load"});
+      {"mesh", "block", "young", "poisson", "order", "expansion", "support", "load", "guides"});
    require(key.has("mesh") != key.has("block"), key.called(), " has ",
            key.has("mesh") ? "both" : "none", " of the keys mesh and block, must have one");
    if (key.has("mesh")) { made.mesh = key["mesh"].file(); }
@@ -347,6 +373,13 @@ JointCase::Body body_in_space(const Key &key, const std::string &name)
    add_common(made, key);
    require(made.order <= 2, made.source.called("order"), " is ", made.order,
            ", in space it must be 1 or 2");
+   if (key.has("guides"))
+   {
+      for (const Key &each : key["guides"].list())
+      {
+         made.guides.push_back(guided_in_space(each));
+      }
+   }
    return made;
 }
 
@@ -756,7 +789,7 @@ JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &j
    return made;
 }
 
-/// [x, y], or {"body": "pad", "at": [x, y]}.
+/// [x, y], or {"body": "pad", "at": [x, y]}; in space [x, y, z].
 JointCase::Point point(const Key &key, const std::string &name, const JointCase &joint)
 {
    check_name(key, name);
@@ -772,8 +805,13 @@ JointCase::Point point(const Key &key, const std::string &name, const JointCase 
       require(made.body >= 0, key["body"].called(), ": there is no body '", key["body"].text(),
               "', must be one of ", listed(names));
    }
-   const std::array<double, 2> at = (named ? key["at"] : key).pair();
-   made.at = {at[0], at[1]};
+   const Key place = named ? key["at"] : key;
+   if (joint.in_space()) { made.at = place.triple(); }
+   else
+   {
+      const std::array<double, 2> at = place.pair();
+      made.at = {at[0], at[1], 0};
+   }
    return made;
 }
 
@@ -783,7 +821,8 @@ void each_load(JointCase &joint, Visit visit)
 {
    const auto along = [&](Guide &guide)
    {
-      for (Guide::Along *one : {&guide.x, &guide.y, &guide.rotation})
+      for (Guide::Along *one : {&guide.x, &guide.y, &guide.rotation, &guide.z,
+                                &guide.rotation_x, &guide.rotation_y})
       {
          if (one->load.empty()) { continue; }
          visit(one->load, one->motion == Guide::Motion::displacement);
@@ -922,7 +961,6 @@ JointCase joint_case(const JointKeys &keys, int order)
    {
       joint.formulation = Formulation::space;
       require(order <= 2, "key 'order' is ", order, ", in space it must be 1 or 2");
-      require(keys.points.is_null(), "key 'points' is not for bodies in space: leave it out");
       require(std::isnan(keys.thickness),
               "key 'thickness' is not for bodies in space: leave it out");
    }

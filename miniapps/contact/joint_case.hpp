@@ -165,8 +165,8 @@ struct JointCase
    struct Point
    {
       std::string name;
-      Eigen::Vector2d at{0, 0};
-      int body = -1; ///< -1: in any body that contains it
+      Eigen::Vector3d at{0, 0, 0}; ///< the third of it in space alone
+      int body = -1;               ///< -1: in any body that contains it
    };
 
    cattaneo::Formulation formulation = cattaneo::Formulation::plane;

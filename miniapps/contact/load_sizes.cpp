@@ -159,15 +159,21 @@ public:
       }
    }
 
-   /// One motion of a rigid block, a guide or an obstacle. @param way 0: x, 1: y, 2: z in
-   /// space, otherwise the rotation
+   /// One motion of a rigid block, a guide or an obstacle. @param way 0: x, 1: y, 2: rotation;
+   /// in space 2: z, 3 to 5: rotations about x, y and z
    void add_way(const Guide::Along &along, int way, const std::string &place)
    {
       if (along.load.empty()) { return; }
       Share made;
       made.place = place;
       const bool force = along.motion == Guide::Motion::force;
-      if (way == 2 && !joint_.in_space())
+      if (joint_.in_space() && way > 2)
+      {
+         made.kind = force ? "moment" : "rotation";
+         (force ? made.couple[way - 3] : made.moment) = along.value;
+         made.lever = std::abs(along.value);
+      }
+      else if (way == 2 && !joint_.in_space())
       {
          made.kind = force ? "moment" : "rotation";
          made.moment = along.value;
@@ -184,6 +190,9 @@ public:
 
    void add_guide(const Guide &guide, const std::string &place)
    {
+      const auto six = guide.in_space();
+      for (int way = 0; joint_.in_space() && way < 6; ++way) { add_way(*six[way], way, place); }
+      if (joint_.in_space()) { return; }
       add_way(guide.x, 0, place);
       add_way(guide.y, 1, place);
       add_way(guide.rotation, 2, place);
@@ -390,8 +399,13 @@ void set_load_sizes(BodiesInSpace &own, const JointCase &joint)
    Shares shares(joint);
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
-      shares.add_statements(joint.bodies[b]);
-      shares.add_forces(joint.bodies[b], *own.scene.bodies[b]);
+      const JointCase::Body &body = joint.bodies[b];
+      shares.add_statements(body);
+      for (const JointCase::Body::Guided &each : body.guides)
+      {
+         shares.add_guide(each.guide, body.name + ":" + each.on);
+      }
+      shares.add_forces(body, *own.scene.bodies[b]);
    }
    set_sizes(own.scene.problem(), shares, joint);
 }

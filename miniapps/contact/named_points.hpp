@@ -14,7 +14,8 @@ class NamedPoints
 {
 public:
    /// All must outlive it. InputError for a point that is in no body.
-   NamedPoints(Study &study, const JointCase &joint, OwnBodies &own);
+   NamedPoints(Study &study, const JointCase &joint, Scene &scene,
+               const cattaneo::HalfPlane *half_plane = nullptr);
    /// Begins the file, or continues it from a state.
    void begin(const cattaneo::ContactState &state);
    void note(const cattaneo::ContactState &state);
@@ -26,21 +27,24 @@ private:
    {
       std::string name;
       int body = 0;
-      Eigen::Vector2d at{0, 0};
+      Eigen::Vector3d at{0, 0, 0};
       int element = 0; ///< of a mesh
       mfem::IntegrationPoint within;
    };
    struct Value
    {
-      Eigen::Vector2d displacement{0, 0};
+      Eigen::Vector3d displacement{0, 0, 0};
       cattaneo::Stress stress;
    };
+   /// The numbers of a point, as in the table and in the file: place, displacement, stresses.
+   std::vector<double> numbers(const Place &place, const Value &value) const;
    void find(const JointCase::Point &point);
    std::vector<Value> values(const cattaneo::ContactState &state);
 
    Study &study_;
    const JointCase &joint_;
-   OwnBodies &own_;
+   Scene &scene_;
+   const cattaneo::HalfPlane *half_plane_;
    std::vector<Place> places_;
    std::optional<cattaneo::StreamedFile> file_;
    double last_ = none; ///< last recorded time, because the end of a march is observed twice

@@ -86,7 +86,7 @@ void move_obstacles(Reduction &reduction, const JointCase &joint)
    {
       const JointCase::Face &face = joint.faces[k];
       if (!face.guide) { continue; }
-      const std::array<double, 2> at = face.guide->centre.value_or(std::array<double, 2>{});
+      const std::array<double, 3> at = face.guide->centre.value_or(std::array<double, 3>{});
       const bool plane = joint.formulation == Formulation::plane;
       for (const int way : {0, 1, 2})
       {

@@ -159,6 +159,34 @@ def test_bolted_laps_are_the_plane_ones(run):
     near_relative(rest["bolts"][0]["least"], space["bolts"][0]["least"], 1e-12)
 
 
+@pytest.mark.parametrize("axis", "xy")
+def test_a_guide_presses_and_bends_a_column(run, axis):
+    """A column, ν = 0, on a smooth plane, under a rigid block: its pressure is P/A + M x/I, and the block comes down by P H/(E A) and turns
+    by M H/(E I)."""
+    wide, deep, height, force, moment = 2, 1, 1.5, 0.3, 0.05
+    area, bend = wide * deep, {"x": wide * deep**3 / 12, "y": deep * wide**3 / 12}[axis]
+    half = {"x": deep, "y": wide}[axis] / 2
+    for turning, history in (({"moment": "M", "value": moment}, ["P=0", "P=1", "M=1"]), ({"angle": "M", "value": moment * height / bend}, ["P=0", "P=1", "M=1"])):
+        case = block(None, 0, block=brick(([0, wide], 2), ([0, deep], 2), ([0, height], 2)), poisson=0, order=2,
+                     guides={"on": "top", "x": "held", "y": "held", "z": {"force": "P", "value": -force}, "rotation-" + axis: turning})
+        del case["bodies"]["block"]["load"]
+        middle = {"middle": {"body": "block", "at": [wide / 2, deep / 2, height / 2]}}
+        got = run.case({**case, "history": history, "points": middle}, "--csv", run.folder / "column")
+        point = got["points"][0]
+        near(point["zz"], -force / area, 1e-10)
+        near(point["uz"], -force / area * height / 2, 1e-10)
+        near_all([point[key] for key in ("xx", "yy", "xy", "yz", "xz")], 0, 1e-10)
+        near(run.columns("column_point_history.csv")["zz"][-1], point["zz"], 1e-12)
+        near(got["peak_pressure"], force / area + moment * half / bend, 1e-10)
+        table = run.columns("column_history.csv")
+        near(abs(table["displacement P"][-1]), force * height / area, 1e-10)
+        column = "displacement M" if "moment" in turning else "reaction M"
+        near(abs(table[column][-1]), moment * height / bend if "moment" in turning else moment, 1e-10)
+        row = next(row for row in got["reactions"] if row["kind"] == "guide")
+        near(row["force_z"], -force, 1e-10)
+        near_all([row["imbalance"] for row in got["balance"]], 0, 1e-10)
+
+
 def test_obstacles_with_one_surface_are_alike(run):
     """A cylinder in three ways: as such, as a height, and as the plane problem's circle. And a large sphere as a height."""
     radius, march = 8, {"history": ["P=0", "P=0.05", "Q=0.01"], "order": 1, "stepping": "fixed", "increments": 4}
@@ -375,7 +403,10 @@ BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
 
 
 @pytest.mark.parametrize("value, path, words", [
-    ([{"on": "top", "z": "held"}], (*BODY, "guides"), ["guides", "not for bodies in space"]),
+    ([{"on": "top", "rotation": "free"}], (*BODY, "guides"), ["guides.0", "unknown key 'rotation'", "rotation-z"]),
+    ([{"on": "top", "z": "held", "centre": [0, 0]}], (*BODY, "guides"), ["guides.0.centre", "three numbers"]),
+    ([{"on": "lid", "z": "held"}], (*BODY, "guides"), ["guides.0.on", "lid", "top"]),
+    ([{"on": "top", "z": "held"}, {"on": "top", "x": "held"}], (*BODY, "guides"), ["guides.1.on", "guided already"]),
     ("block.mtx", (*BODY, "matrix"), ["matrix", "not for bodies in space"]),
     (2, (*BODY, "thickness"), ["thickness", "not for bodies in space"]),
     (3, (*BODY, "order"), ["order", "must be 1 or 2"]),
@@ -401,7 +432,8 @@ BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
     ("x-1", (*FLOOR, "friction"), ["friction", "is -1", "not negative"]),
     ({"D": {"angle": 1}}, (*FLOOR, "motion"), ["angle", "not for bodies in space"]),
     ({"z": {"force": "F"}, "rotation": "free"}, (*FLOOR, "guide"), ["rotation", "not for bodies in space"]),
-    ({"tip": [0, 0]}, ("points",), ["points", "not for bodies in space"]),
+    ({"tip": [0, 0]}, ("points",), ["points.tip", "three numbers"]),
+    ({"tip": [0, 0, 3]}, ("points",), ["points.tip", "(0, 0, 3) is in no body"]),
     ({"b": {"between": "block:top", "stiffness": 1, "preload": 1}}, ("bolts",), ["b", "bolted to the ground", "direction"]),
     ({"b": {"between": "block:top", "stiffness": 1, "preload": 1, "direction": [0, 1]}}, ("bolts",), ["direction", "three numbers"]),
     ({"b": {"between": "block:top", "stiffness": 1, "preload": 1, "direction": [0, 0, 0]}}, ("bolts",), ["direction is (0, 0, 0)", "must have a length"]),

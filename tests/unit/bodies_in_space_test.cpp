@@ -444,7 +444,6 @@ TEST(BodiesInSpace, RefuseWhatTheyCannotTake)
    expect_input_error([&] { body.fix_node(0, 0, 0); }, "two coordinates are given");
    expect_input_error([&] { body.add_traction("P", 1, 0.0, 0.0); }, "must be 3");
    expect_input_error([&] { body.add_body_force("P", 0.0, 0.0); }, "must be 3");
-   expect_input_error([&] { body.guide(1, Guide{}); }, "the body is in space");
    expect_input_error([&] { contact_line(body, 1); }, "its contact is a surface");
    expect_input_error([&] { contact_surface(body, 7); }, "no boundary attribute 7");
    ElasticBody plane(flat, 1, Material{});

@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+#include <cattaneo/condense/rigid_motion.hpp>
 #include <cattaneo/condense/trace.hpp>
 #include <cattaneo/elastic/assembly.hpp>
 #include <cattaneo/elastic/body.hpp>
@@ -483,41 +485,48 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
 
 void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
 {
-   require(components() == 2, "guide: the body is ",
-           components() == 1 ? "one of torsion" : "in space",
-           ", must be plane or axisymmetric");
+   require(components() > 1,
+           "guide: the body is one of torsion, must be plane, axisymmetric or "
+           "in space");
    const std::vector<int> nodes = nodes_on(part, "guide");
-   constexpr double far = std::numeric_limits<double>::max();
-   std::array<double, 2> low{far, far}, high{-far, -far};
+   const int dimension = components();
+   Eigen::AlignedBox3d box;
    for (int node : nodes)
    {
-      for (int c : {0, 1})
+      box.extend(place(node));
+      for (int c = 0; c < dimension; ++c)
       {
-         const double x = coordinates_(c, node);
-         low[c] = std::min(low[c], x);
-         high[c] = std::max(high[c], x);
          const int dof = true_dof(node, c);
-         require(dof < 0 || !essential_[dof] || (c == 0 && on_axis(node)), "guide: the node (",
-                 coordinates_(0, node), ", ", coordinates_(1, node),
+         const bool held = dof >= 0 && essential_[dof] && !(c == 0 && on_axis(node));
+         const Eigen::Vector3d at = place(node);
+         require(!held, "guide: the node (", at[0], ", ", at[1],
+                 dimension == 3 ? ", " + message_text(at[2]) : "",
                  ") is held, moved or guided already, must be moved by this guide alone");
       }
    }
-   const std::array<double, 2> middle{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},
-      centre = guide.centre.value_or(middle);
-   const bool plane = formulation_ == Formulation::plane;
+   const Eigen::Vector3d middle = box.isEmpty() ? Eigen::Vector3d(0, 0, 0) : box.center();
+   const std::array<double, 3> given =
+      guide.centre.value_or(std::array<double, 3>{middle[0], middle[1], middle[2]});
+   const Eigen::Vector3d centre(given[0], given[1], dimension == 3 ? given[2] : 0);
+   const bool revolves = formulation_ == Formulation::axisymmetric;
    const auto along_axis = [&](const Guide::Along &other)
    { return other.motion == Guide::Motion::free || other.motion == Guide::Motion::held; };
-   require(plane || (along_axis(guide.x) && along_axis(guide.rotation)),
+   require(!revolves || (along_axis(guide.x) && along_axis(guide.rotation)),
            "guide: in axisymmetry a guided block can only move along the axis (y), x and "
            "rotation must not be given");
-   const std::array<const Guide::Along *, 3> all{&guide.x, &guide.y, &guide.rotation};
-   for (int k = 0; k < 3; ++k)
+   std::vector<const Guide::Along *> all{&guide.x, &guide.y, &guide.rotation};
+   if (dimension == 3)
+   {
+      const auto six = guide.in_space();
+      all.assign(six.begin(), six.end());
+   }
+   for (std::size_t k = 0; k < all.size(); ++k)
    {
       const Guide::Along &along = *all[k];
-      const bool held = along.motion == Guide::Motion::held || (!plane && k != 1);
-      const bool given =
+      const bool held = along.motion == Guide::Motion::held || (revolves && k != 1);
+      const bool loaded =
          along.motion == Guide::Motion::force || along.motion == Guide::Motion::displacement;
-      require(!given || !along.load.empty(), "guide: a load has no name, must have one");
+      require(!loaded || !along.load.empty(), "guide: a load has no name, must have one");
       require(std::isfinite(along.value), "guide: the value of load '", along.load, "' is ",
               along.value, ", must be finite");
       BlockMotion block{Eigen::VectorXd::Zero(space_->GetTrueVSize()), "", along.value};
@@ -530,15 +539,15 @@ void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
          load(along.load, Control::force);
          block.load = along.load;
       }
+      const bool turns = k >= static_cast<std::size_t>(dimension);
       for (int node : nodes)
       {
-         for (int c : {0, 1})
+         const Eigen::MatrixXd motions = rigid_at(place(node), centre, dimension);
+         for (int c = 0; c < dimension; ++c)
          {
             const int dof = true_dof(node, c);
-            if (dof < 0 || held || (k < 2 && c != k)) { continue; }
-            const double arm =
-               c == 0 ? centre[1] - coordinates_(1, node) : coordinates_(0, node) - centre[0];
-            const double motion = k < 2 ? 1 : arm;
+            if (dof < 0 || held || (!turns && c != static_cast<int>(k))) { continue; }
+            const double motion = motions(c, static_cast<Eigen::Index>(k));
             if (along.motion == Guide::Motion::displacement)
             {
                prescribe(along.load, node, c, along.value * motion);
@@ -553,7 +562,7 @@ void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
    }
    for (int node : nodes)
    {
-      for (int c : {0, 1})
+      for (int c = 0; c < dimension; ++c)
       {
          const int dof = true_dof(node, c);
          if (dof >= 0) { essential_[dof] = true; }

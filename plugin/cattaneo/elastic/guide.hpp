@@ -9,11 +9,12 @@ namespace cattaneo
 
 /** Motion of a part of a boundary that moves as a rigid block: a grip, a stiff plate, a
     bearing. Its motions are along x, along y and about its centre; about an axis of revolution
-    only the one along the axis. For each motion either the force or the displacement is given
+    only the one along the axis; in space three along the axes and three about them. For each
+    motion either the force or the displacement is given
     as a load. The other one is its conjugate. */
 struct Guide
 {
-   /// How it moves along one of its three motions.
+   /// How it moves along one of its motions.
    enum class Motion
    {
       held,
@@ -21,7 +22,7 @@ struct Guide
       force,       ///< its load is the force on the block, about the centre a moment
       displacement ///< its load is how far it moves, about the centre an angle
    };
-   /// One of its three motions.
+   /// One of its motions.
    struct Along
    {
       Motion motion = Motion::free; ///< along this motion
@@ -32,8 +33,17 @@ struct Guide
    Along x;                      ///< along x, to the right
    Along y;                      ///< along y (the axis), upwards
    Along rotation{Motion::held}; ///< about the centre, counter-clockwise; angles in radians
-   /// Not given: the middle of the box around the part.
-   std::optional<std::array<double, 2>> centre = std::nullopt;
+   /// Not given: the middle of the box around the part. The third coordinate is used in space.
+   std::optional<std::array<double, 3>> centre = std::nullopt;
+   Along z = {};                   ///< in space along z
+   Along rotation_x{Motion::held}; ///< in space about x; `rotation` is about z
+   Along rotation_y{Motion::held}; ///< in space about y
+
+   /// The motions in space: along x, y and z, about x, y and z.
+   std::array<const Along *, 6> in_space() const
+   {
+      return {&x, &y, &z, &rotation_x, &rotation_y, &rotation};
+   }
 };
 
 } // namespace cattaneo
