@@ -305,7 +305,7 @@ void contact(Study &study)
          study.value("chords_node_pressure_change_estimate", chords.at_a_node);
       }
       warn_of_linear_axis(own.scene.reduction, pressed);
-      warn_of_large_displacements(own, small, history.state);
+      warn_of_large_displacements(own.scene, small, history.state);
       if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
    }
 

@@ -479,6 +479,13 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    }
    NamedPoints points(study, joint, own.scene);
    points.begin(history.state);
+   // On a plane obstacle a node may slide any way.
+   std::vector<bool> even;
+   for (const JointCase::Face &face : joint.faces)
+   {
+      even.push_back(face.solid && face.solid->shape == JointCase::Face::Solid::Shape::plane);
+   }
+   SmallDisplacements small(reduction, even);
    Sketch sketch(study, own.scene);
    const Counters &spent = reduction.counters;
    int frames = 0;
@@ -488,6 +495,7 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
                     report.note(reached, history.cycle);
                     bolts.note(reached);
                     sketch.note(reached);
+                    small.note(reached);
                     points.note(reached);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // the cost of the frame is added
@@ -498,6 +506,7 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    sketch.report();
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, paraview.c_str())); }
+   warn_of_large_displacements(own.scene, small, history.state);
    history.report_state(problem, report.of_state(history.state));
    report.report(history.state, history.report, bolts);
    bolts.report(history.state);

@@ -224,20 +224,21 @@ std::vector<bool> even_sides(const JointCase &joint)
    return even;
 }
 
-void warn_of_large_displacements(OwnBodies &own, const SmallDisplacements &noted,
+void warn_of_large_displacements(Scene &scene, const SmallDisplacements &noted,
                                  const ContactState &last)
 {
    for (const std::string &sentence : noted.warnings()) { warn(sentence); }
-   Reduction &reduction = own.scene.reduction;
+   Reduction &reduction = scene.reduction;
    const Counters before = reduction.counters; // of the study, which requested no fields
-   for (std::size_t b = 0; b < own.scene.bodies.size(); ++b)
+   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
    {
       const Eigen::VectorXd field =
          reduction.displacement(static_cast<int>(b), last.v, last.w, last.multipliers);
-      const Rotation most = largest_rotation(*own.scene.bodies[b], field);
+      const Rotation most = largest_rotation(*scene.bodies[b], field);
       const std::string &name = reduction.bodies[b].name,
                         sentence = rotation_warning(name.empty() ? std::to_string(b + 1) : name,
-                                                    most.angle, most.place);
+                                                    most.angle, most.place,
+                                                    scene.meshes[b]->Dimension() == 3);
       if (!sentence.empty()) { warn(sentence); }
    }
    reduction.counters = before;

@@ -24,7 +24,7 @@ void warn_of_accuracy(double accuracy);
 
 /// Warns of displacements that are not small: those recorded in the march, and rotations of
 /// bodies with elements in its last state.
-void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
+void warn_of_large_displacements(Scene &scene, const cattaneo::SmallDisplacements &noted,
                                  const cattaneo::ContactState &last);
 /// Warns of a free side whose edges stay the chords of a curve, if the wall beside the side is
 /// thereby thinner or thicker by more than a fortieth.

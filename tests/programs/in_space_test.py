@@ -163,7 +163,7 @@ def test_bolted_laps_are_the_plane_ones(run):
 def test_a_guide_presses_and_bends_a_column(run, axis):
     """A column, ν = 0, on a smooth plane, under a rigid block: its pressure is P/A + M x/I, and the block comes down by P H/(E A) and turns
     by M H/(E I)."""
-    wide, deep, height, force, moment = 2, 1, 1.5, 0.3, 0.05
+    wide, deep, height, force, moment = 2, 1, 1.5, 0.3, 0.02
     area, bend = wide * deep, {"x": wide * deep**3 / 12, "y": deep * wide**3 / 12}[axis]
     half = {"x": deep, "y": wide}[axis] / 2
     for turning, history in (({"moment": "M", "value": moment}, ["P=0", "P=1", "M=1"]), ({"angle": "M", "value": moment * height / bend}, ["P=0", "P=1", "M=1"])):
@@ -184,6 +184,9 @@ def test_a_guide_presses_and_bends_a_column(run, axis):
         near(abs(table[column][-1]), moment * height / bend if "moment" in turning else moment, 1e-10)
         row = next(row for row in got["reactions"] if row["kind"] == "guide")
         near(row["force_z"], -force, 1e-10)
+        # Elements of the upper half turn by three quarters of the angle of the block, in the mean.
+        angle = 0.75 * moment * height / bend
+        assert (f"body block turns by {math.degrees(angle):.6g} degrees" in got.warned()) == (angle > 0.05), got.warned()
         near_all([row["imbalance"] for row in got["balance"]], 0, 1e-10)
 
 
@@ -379,6 +382,17 @@ def test_stacks_ties_and_moving_planes(run):
     assert got.interface("glue")["tied"]
     foot = next(row for row in got["reactions"] if row["body"] == "foot")
     near(foot["force_z"], 0.01, 1e-12)
+
+
+def test_large_slip_is_warned_of(run):
+    """An obstacle moves by two cells below a block. Its shape is a height, which need not be the same everywhere."""
+    case = block("P pressure top 0.01", 0.1, support="top:xy")
+    case["interfaces"]["floor"].update(obstacle={"height": "0*x"}, motion={"D": {"x": 1}})
+    case["history"] = ["P=0", "P=1", "D=1"]
+    said = run.case(case).warned()
+    assert "interface 'floor': a node slips by " in said and "of its distance from the next" in said, said
+    case["interfaces"]["floor"]["obstacle"] = {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}
+    assert "slips" not in run.case(case).warned()
 
 
 def without(case, *path):

@@ -38,8 +38,9 @@ private:
    std::vector<Most> slip_, gap_; ///< of each interface
 };
 
-/// A sentence if a body turns by more than a twentieth (3 degrees) anywhere, else nothing.
+/// A sentence if a body turns by more than a twentieth (3 degrees) anywhere, else nothing. The
+/// third coordinate of the place is told in space alone.
 std::string rotation_warning(const std::string &body, double rotation,
-                             const Eigen::Vector2d &place);
+                             const Eigen::Vector3d &place, bool in_space = false);
 
 } // namespace cattaneo
