@@ -153,13 +153,18 @@ PartInSpace made_part(Scene &scene, const JointCase &joint, const JointCase::Bod
    part.named(
       [&]
       {
-         MeshPart of_solids;
+         MeshPart of_solids{said.part, said.name};
          of_solids.dimension = 3;
          mfem::Mesh mesh =
             said.brick ? mesh_of_brick(*said.brick) : read_mesh(said.mesh, nullptr, of_solids);
          MeshNames names;
          if (said.brick) { names.boundary = brick_sides; }
          else { names = mesh_names(said.mesh, of_solids); }
+         if (!names.passed_over.empty())
+         {
+            warn("mesh '" + said.mesh + "': its " + names.passed_over +
+                 " are ignored: contacts, supports and loads are those of the case");
+         }
          part.terms = {names.boundary, !said.brick, said.expansion};
          const std::vector<Material> materials = materials_of(said, mesh, names, false);
          const int order = said.order > 0 ? said.order : joint.order;

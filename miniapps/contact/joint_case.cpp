@@ -350,9 +350,9 @@ JointCase::Body body_in_space(const Key &key, const std::string &name)
    made.name = name;
    made.source = source(key);
    key.must_not_have_in_space(
-      {"part", "split", "matrix", "deck", "half-plane", "geometry", "thickness"});
-   key.must_be_of(
-      {"mesh", "block", "young", "poisson", "order", "expansion", "support", "load", "guides"});
+      {"split", "matrix", "deck", "half-plane", "geometry", "thickness"});
+   key.must_be_of({"mesh", "part", "block", "young", "poisson", "order", "expansion", "support",
+                   "load", "guides"});
    require(key.has("mesh") != key.has("block"), key.called(), " has ",
            key.has("mesh") ? "both" : "none", " of the keys mesh and block, must have one");
    if (key.has("mesh")) { made.mesh = key["mesh"].file(); }
@@ -368,8 +368,19 @@ JointCase::Body body_in_space(const Key &key, const std::string &name)
          made.brick->elements = block["elements"].choice({"hexahedra", "tetrahedra", "wedges"});
       }
    }
-   made.young = key["young"].constants(positive);
-   made.poisson = key["poisson"].constants(any);
+   if (key.has("part"))
+   {
+      require(!made.brick, key.called(),
+              " has the keys block and part, which do not go together");
+      made.part = key["part"].text();
+   }
+   // A deck may have materials of its own.
+   const std::string ending = std::filesystem::path(made.mesh).extension().string();
+   if ((ending != ".inp" && ending != ".INP") || key.has("young") || key.has("poisson"))
+   {
+      made.young = key["young"].constants(positive);
+      made.poisson = key["poisson"].constants(any);
+   }
    add_common(made, key);
    require(made.order <= 2, made.source.called("order"), " is ", made.order,
            ", in space it must be 1 or 2");

@@ -131,6 +131,7 @@ std::string other_plane_state(const MeshNames &names, bool plane_stress, bool ab
 std::vector<Material> materials_of(JointCase::Body body, const mfem::Mesh &mesh,
                                    const MeshNames &names, bool plane_stress)
 {
+   body = with_materials(std::move(body), names);
    by_attribute(body.young, body.source.called("young"), mesh, names);
    by_attribute(body.poisson, body.source.called("poisson"), mesh, names);
    return materials(body, mesh.attributes.Size() ? mesh.attributes.Max() : 1, plane_stress);

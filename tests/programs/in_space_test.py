@@ -368,6 +368,61 @@ def test_meshes_of_solids(run, elements):
         near_relative(same["peak_pressure"], values[0]["peak_pressure"], 1e-10)
 
 
+EDGES = {8: [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
+         4: [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)], 6: [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]}
+
+
+def deck_text(nodes, solids, order):
+    """Solids as an .inp, with a material, the surface HIGH of faces above and the node set LOW below."""
+    nodes, middles, rows = [list(at) for at in nodes], {}, []
+    for solid_ in solids:
+        row = list(solid_)
+        for a, b in EDGES[len(solid_)] if order == 2 else []:
+            key = tuple(sorted((solid_[a], solid_[b])))
+            if key not in middles:
+                middles[key] = len(nodes)
+                nodes.append([(x + y) / 2 for x, y in zip(nodes[key[0]], nodes[key[1]], strict=True)])
+            row.append(middles[key])
+        rows.append(row)
+    top = max(at[2] for at in nodes)
+    faces = {8: [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)], 4: [(0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)],
+             6: [(0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]}[len(solids[0])]
+    high = [f"{e}, S{side}" for e, row in enumerate(rows, 1) for side, face in enumerate(faces, 1) if all(abs(nodes[row[k]][2] - top) < 1e-9 for k in face)]
+    lines = [f"{e}, " + ", ".join(str(n + 1) for n in row) for e, row in enumerate(rows, 1)]
+    lines = [line if line.count(",") < 16 else ", ".join(line.split(", ")[:16]) + ",\n" + ", ".join(line.split(", ")[16:]) for line in lines]
+    return "\n".join(["*NODE", *(f"{k}, " + ", ".join(map(repr, at)) for k, at in enumerate(nodes, 1)), f"*ELEMENT, TYPE=C3D{len(rows[0])}, ELSET=ALL", *lines,
+                      "*NSET, NSET=LOW", *(str(k) for k, at in enumerate(nodes, 1) if at[2] == 0), "*SURFACE, NAME=HIGH, TYPE=ELEMENT", *high,
+                      "*MATERIAL, NAME=SOFT", "*ELASTIC", "1, 0.3", "*SOLID SECTION, ELSET=ALL, MATERIAL=SOFT", ""])
+
+
+@pytest.mark.parametrize("elements, order", [(elements, order) for elements in ("hexahedra", "tetrahedra", "wedges") for order in (1, 2)])
+def test_decks_of_solids(run, elements, order):
+    """C3D4 to C3D20 with a surface of faces: under a pressure, and as the body of MFEM's elements of the same order (of hexahedra and wedges
+    of order 2 the nodes in the middles of faces are added)."""
+    cells, size = (4, 2, 2), (2, 1, 1)
+    nodes, solids, _ = solid(cells, size, "tetrahedra" if elements == "tetrahedra" else "hexahedra")
+    if elements == "wedges":
+        solids = [[h[k] for k in half] for h in solids for half in ((0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7))]
+    case = block("P pressure HIGH 1; Q traction HIGH 0.2 0 0")
+    case["bodies"]["block"] = {"mesh": run.write("solid.inp", deck_text(nodes, solids, order)), "load": case["bodies"]["block"]["load"]}
+    case["interfaces"]["floor"]["between"] = "block:LOW"
+    case.update(order=order, history=["P=0", "P=1", "Q=1"], stepping="fixed", increments=2)
+    got = run.case(case)
+    near(got.interface("floor")["normal"], 2, 1e-12)
+    near(got.interface("floor")["force_x"], -0.4, 1e-12)
+    same = {**block("P pressure top 1; Q traction top 0.2 0 0"), **{key: case[key] for key in ("order", "history", "stepping", "increments")}}
+    same["bodies"]["block"]["block"]["elements"] = elements
+    if elements == "hexahedra":
+        near_relative(got["peak_pressure"], run.case(same)["peak_pressure"], 1e-10)
+    # Temperature: a body that is free to expand beside the pressure takes strain without stress.
+    hot = {**case, "history": ["P=0", "P=1 H=1"], "points": {"corner": [1.9, 0.9, 0.8]},
+           "interfaces": {"floor": {**case["interfaces"]["floor"], "friction": 0}},
+           "bodies": {"block": {"mesh": case["bodies"]["block"]["mesh"], "expansion": 1e-3, "load": "P pressure HIGH 1; H temperature 50",
+                                "support": "@0,0,1:xy @2,0,1:y"}}}
+    point = run.case(hot)["points"][0]
+    near_all([point["ux"] - 0.35 * 1.9, point["uy"] - 0.35 * 0.9, point["uz"] + 0.95 * 0.8, point["zz"] + 1, point["von_mises"] - 1], 0, 1e-10)
+
+
 def test_stacks_ties_and_moving_planes(run):
     """Two blocks, of which the lower is tied to a third one, are pressed by a plane that comes down: its reaction is the force."""
     def one(low, **keys):
@@ -479,7 +534,7 @@ def test_more_mistakes(run):
             ("group.msh", whole.replace(" 5 2 7 7 ", " 5 2 0 7 "), ["of a volume", "no physical group"]),
             ("eight.msh", whole.replace("$EndElements", "").replace("$Elements\n7", "$Elements\n8") + "8 16 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n",
              ["order 2", "must be 1"]),
-            ("deck.inp", "*NODE\n", ["deck", "MFEM or Gmsh"])):
+            ("deck.inp", "*NODE\n", ["no elements", "C3D"])):
         case = block()
         case["bodies"]["block"].update(mesh=run.write(name, text))
         del case["bodies"]["block"]["block"]

@@ -273,7 +273,7 @@ void DeckReader::require_known(const LineReader &in) const
          ? " lets nodes move with others, must be left out: say in the case what it "
            "stands for, a support, a guide, or an interface that is tied"
          : " lets nodes move with others, must be left out: the case has no such thing");
-   if (use_ == DeckUse::mesh) { return; }
+   if (use_ != DeckUse::stiffness) { return; }
    in.require(
       couplings.count(name) == 0, "*", name,
       " makes nodes depend on others, so that rows of the matrix belong to several nodes: it "
@@ -305,7 +305,7 @@ void DeckReader::begin_block(const LineReader &in)
    const auto part = parts_.find(of);
    in.require(part != parts_.end(), "the *INSTANCE '", called, "' is of the part '", of,
               "', which must be there before it");
-   in.require(use_ == DeckUse::mesh || instances_.empty(),
+   in.require(use_ != DeckUse::stiffness || instances_.empty(),
               "a second *INSTANCE begins. Beside a "
               "matrix there must be one, because "
               "node numbers of several "
@@ -403,7 +403,7 @@ void DeckReader::data(LineReader &in)
       const double thickness = in.number(fields[0], "the thickness of *SOLID SECTION");
       in.require(thickness == 1, "the thickness of *SOLID SECTION is ", thickness,
                  ", must be 1, as stiffness and forces are per thickness",
-                 use_ == DeckUse::mesh ? ": key 'thickness' of the case says it" : "");
+                 use_ != DeckUse::stiffness ? ": key 'thickness' of the case says it" : "");
    }
    // Supports and loads of a mesh are in the case.
    else if (name == "CLOAD" && use_ == DeckUse::stiffness) { load(in, fields); }
@@ -529,7 +529,7 @@ void DeckReader::element(LineReader &in)
    made.place = place(in);
    made.corners = corners_of(made.type);
    const std::size_t of_solid =
-      use_ == DeckUse::stiffness ? nodes_of_solid(made.type) : std::size_t(0);
+      use_ == DeckUse::mesh ? std::size_t(0) : nodes_of_solid(made.type);
    made.is_solid = of_solid > 0;
    in.add_integers(made.nodes, "a number of *ELEMENT");
    while (trimmed(in.line()).back() == ',' && in.next())

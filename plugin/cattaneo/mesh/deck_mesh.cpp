@@ -1,4 +1,6 @@
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cattaneo/exchange/input_deck.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/mesh/deck_mesh.hpp>
@@ -94,22 +96,283 @@ std::string passed_over(const InputDeck &deck)
    return listed(cards);
 }
 
+/// What a mesh in a deck has besides elements.
+MeshNames names_of(const InputDeck &deck)
+{
+   MeshNames names;
+   names.numbered = false;
+   names.axisymmetric = deck.formulation == Formulation::axisymmetric;
+   names.passed_over = passed_over(deck);
+   for (const std::string &name : deck.sections)
+   {
+      const auto material = deck.materials.find(name);
+      const bool known = material != deck.materials.end();
+      names.materials.push_back(
+         {name, known ? material->second.young : 0, known ? material->second.poisson : 0});
+   }
+   return names;
+}
+
+void require_section(const InputDeck &deck, const InputDeck::Element &element)
+{
+   require(deck.sections.empty() || element.section > 0, element.place, ": element ",
+           element.number,
+           " is in no *SOLID SECTION, must be in one, or there must be none at all");
+}
+
+/// Edges of a solid by positions of their corners, in the order of its middle nodes: that of
+/// ABAQUS and CalculiX, and Gmsh's. Gmsh's other nodes are in the middles of faces.
+struct SolidOrder
+{
+   long linear, quadratic; ///< Gmsh's types of elements
+   std::vector<std::array<int, 2>> edges, in_gmsh;
+   std::vector<std::array<int, 4>> faces; ///< quadrilaterals
+};
+
+/// By the number of corners.
+const std::map<std::size_t, SolidOrder> &solid_orders()
+{
+   static const std::map<std::size_t, SolidOrder> orders = {
+      {4,
+       {4,
+        11,
+        {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
+        {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}},
+        {}}},
+      {6,
+       {6,
+        13,
+        {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+        {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}},
+        {{0, 1, 4, 3}, {0, 3, 5, 2}, {1, 2, 5, 4}}}},
+      {8,
+       {5,
+        12,
+        {{0, 1},
+         {1, 2},
+         {2, 3},
+         {3, 0},
+         {4, 5},
+         {5, 6},
+         {6, 7},
+         {7, 4},
+         {0, 4},
+         {1, 5},
+         {2, 6},
+         {3, 7}},
+        {{0, 1},
+         {0, 3},
+         {0, 4},
+         {1, 2},
+         {1, 5},
+         {2, 3},
+         {2, 6},
+         {3, 7},
+         {4, 5},
+         {4, 7},
+         {5, 6},
+         {6, 7}},
+        {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 6, 7}}}}};
+   return orders;
+}
+
+/// Solids of a deck as elements of Gmsh. Those of 15 and 20 nodes get nodes in the middles of
+/// their faces and of a hexahedron, where their own functions have these points.
+class SolidsOfDeck
+{
+public:
+   SolidsOfDeck(const InputDeck &deck, GmshMesh &mesh) : deck_(deck), mesh_(mesh)
+   {
+      for (const auto &place : deck.places) { next_ = std::max<long>(next_, place.first + 1); }
+   }
+
+   void add_solid(const InputDeck::Element &element)
+   {
+      for (const int node : element.nodes) { add_node(node); }
+      const std::size_t count = element.nodes.size(), corners = count < 9 && count != 6 ? count
+                                                                : count == 10           ? 4
+                                                                : count == 20           ? 8
+                                                                                        : 6;
+      const SolidOrder &order = solid_orders().at(corners);
+      std::vector<long> nodes(element.nodes.begin(),
+                              element.nodes.begin() + static_cast<long>(corners));
+      const std::vector<long> at = nodes;
+      if (count > corners)
+      {
+         for (std::size_t k = 0; k < order.edges.size(); ++k)
+         {
+            const auto &[a, b] = order.edges[k];
+            middles_[std::minmax(at[a], at[b])] = element.nodes[corners + k];
+         }
+         for (const auto &[a, b] : order.in_gmsh) { nodes.push_back(middle(at[a], at[b])); }
+         for (const auto &[a, b, c, d] : order.faces)
+         {
+            nodes.push_back(middle_of_face({at[a], at[b], at[c], at[d]}));
+         }
+         if (corners == 8)
+         {
+            Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+            for (std::size_t k = 0; k < count; ++k)
+            {
+               centre += (k < 8 ? -0.25 : 0.25) * place(element.nodes[k]);
+            }
+            nodes.push_back(made_node(centre));
+         }
+      }
+      mesh_.add_element(element.number, count > corners ? order.quadratic : order.linear,
+                        {std::max(element.section, 1), 1}, nodes);
+   }
+
+   /// An outer face; its corners come first.
+   void add_face(long number, int attribute, const Nodes &face)
+   {
+      const bool triangle = face.size() == 3 || face.size() == 6;
+      const std::size_t corners = triangle ? 3 : 4;
+      std::vector<long> nodes(face.begin(), face.begin() + static_cast<long>(corners));
+      const std::vector<long> at = nodes;
+      const bool quadratic = face.size() > corners;
+      for (std::size_t k = 0; quadratic && k < corners; ++k)
+      {
+         nodes.push_back(middle(at[k], at[(k + 1) % corners]));
+      }
+      if (quadratic && !triangle)
+      {
+         nodes.push_back(middle_of_face({at[0], at[1], at[2], at[3]}));
+      }
+      mesh_.add_element(number, triangle ? (quadratic ? 9 : 2) : (quadratic ? 10 : 3),
+                        {attribute, 1}, nodes);
+   }
+
+private:
+   Eigen::Vector3d place(int node) const
+   {
+      const Eigen::Vector2d &at = deck_.places.at(node);
+      return {at[0], at[1], deck_.z.at(node)};
+   }
+   Eigen::Vector3d place_of(long node) const
+   {
+      const std::array<double, 3> &at = mesh_.nodes.at(node);
+      return {at[0], at[1], at[2]};
+   }
+   void add_node(int node)
+   {
+      if (mesh_.nodes.count(node) > 0) { return; }
+      const Eigen::Vector3d at = place(node);
+      mesh_.add_node(node, {at[0], at[1], at[2]});
+   }
+   long made_node(const Eigen::Vector3d &at)
+   {
+      mesh_.add_node(next_, {at[0], at[1], at[2]});
+      return next_++;
+   }
+   long middle(long a, long b) const { return middles_.at(std::minmax(a, b)); }
+   /// One node for both elements beside a face.
+   long middle_of_face(const std::array<long, 4> &corners)
+   {
+      std::array<long, 4> key = corners;
+      std::sort(key.begin(), key.end());
+      const auto found = of_faces_.find(key);
+      if (found != of_faces_.end()) { return found->second; }
+      Eigen::Vector3d at = Eigen::Vector3d::Zero();
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+         at += 0.5 * place_of(middle(corners[k], corners[(k + 1) % 4])) -
+               0.25 * place_of(corners[k]);
+      }
+      return of_faces_[key] = made_node(at);
+   }
+
+   const InputDeck &deck_;
+   GmshMesh &mesh_;
+   long next_ = 1;
+   std::map<std::pair<long, long>, long> middles_;
+   std::map<std::array<long, 4>, long> of_faces_;
+};
+
+/// The corners of a face, in order of their numbers.
+Nodes sorted_corners(const Nodes &face)
+{
+   const bool triangle = face.size() == 3 || face.size() == 6;
+   Nodes corners(face.begin(), face.begin() + (triangle ? 3 : 4));
+   std::sort(corners.begin(), corners.end());
+   return corners;
+}
+
+/// Parts of the boundary by their names, as sets of sorted_corners(). A set of nodes that is no
+/// part of the boundary has no faces.
+std::map<std::string, std::set<Nodes>> faces_of_parts(const InputDeck &deck)
+{
+   std::map<std::string, std::set<Nodes>> parts;
+   for (const auto &[name, faces] : deck.surfaces)
+   {
+      for (const Nodes &face : faces) { parts[name].insert(sorted_corners(face)); }
+   }
+   for (const auto &[name, nodes] : deck.node_sets)
+   {
+      const std::set<int> its(nodes.begin(), nodes.end());
+      std::set<int> covered;
+      std::set<Nodes> faces;
+      for (const Nodes &face : deck.faces)
+      {
+         const bool whole = std::all_of(face.begin(), face.end(),
+                                        [&](int node) { return its.count(node) == 1; });
+         if (!whole) { continue; }
+         faces.insert(sorted_corners(face));
+         covered.insert(face.begin(), face.end());
+      }
+      parts.emplace(name, covered == its ? faces : std::set<Nodes>());
+   }
+   return parts;
+}
+
+DeckMesh deck_solids(const std::string &file, const MeshPart &part)
+{
+   const InputDeck deck = read_input_deck(file, DeckUse::solids, {part.name, part.usual});
+   DeckMesh made;
+   made.names = names_of(deck);
+   SolidsOfDeck solids(deck, made.mesh);
+   long last = 0;
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      require(element.is_solid, element.place, ": element ", element.number, " is a ",
+              element.type, ", must be a C3D of 4, 6, 8, 10, 15 or 20 nodes, or be left out");
+      require_section(deck, element);
+      last = std::max<long>(last, element.number);
+      solids.add_solid(element);
+   }
+   require(last > 0, "file '", file,
+           "' has no elements, must have C3D of 4, 6, 8, 10, 15 or 20 nodes");
+   const std::map<std::string, std::set<Nodes>> parts = faces_of_parts(deck);
+   for (const auto &one : parts) { made.names.boundary[one.first]; }
+   // A face has one attribute. Faces with the same names share it.
+   std::map<std::vector<std::string>, int> attributes;
+   for (const Nodes &face : deck.faces)
+   {
+      const Nodes corners = sorted_corners(face);
+      std::vector<std::string> names;
+      for (const auto &[name, faces] : parts)
+      {
+         if (faces.count(corners)) { names.push_back(name); }
+      }
+      const auto [known, is_new] =
+         attributes.emplace(names, static_cast<int>(attributes.size()) + 1);
+      for (std::size_t k = 0; k < names.size() && is_new; ++k)
+      {
+         made.names.boundary[names[k]].push_back(known->second);
+      }
+      solids.add_face(++last, known->second, face);
+   }
+   return made;
+}
+
 } // namespace
 
 DeckMesh deck_mesh(const std::string &file, const MeshPart &part)
 {
+   if (part.dimension == 3) { return deck_solids(file, part); }
    const InputDeck deck = read_input_deck(file, DeckUse::mesh, {part.name, part.usual});
    DeckMesh made;
-   made.names.numbered = false;
-   made.names.axisymmetric = deck.formulation == Formulation::axisymmetric;
-   made.names.passed_over = passed_over(deck);
-   for (const std::string &name : deck.sections)
-   {
-      const auto material = deck.materials.find(name);
-      made.names.materials.push_back(
-         {name, material == deck.materials.end() ? 0 : material->second.young,
-          material == deck.materials.end() ? 0 : material->second.poisson});
-   }
+   made.names = names_of(deck);
 
    std::set<int> used;
    long last = 0;
@@ -121,9 +384,7 @@ DeckMesh deck_mesh(const std::string &file, const MeshPart &part)
               element.corners == 2 ? " with a *SOLID SECTION" : "",
               ", must be a CPS, CPE or CAX of 3, 4, 6 or 8 nodes, or an M3D9, or be left out");
       if (element.corners < 3) { continue; }
-      require(deck.sections.empty() || element.section > 0, element.place, ": element ",
-              element.number,
-              " is in no *SOLID SECTION, must be in one, or there must be none at all");
+      require_section(deck, element);
       for (int node : element.nodes)
       {
          if (!used.insert(node).second) { continue; }

@@ -497,9 +497,6 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves, const Me
 {
    require(part.name.empty() || is_deck(file), "mesh file has no part '", part.name,
            "': only decks (.inp) have parts");
-   require(part.dimension == 2 || !is_deck(file),
-           "mesh file is a deck, of which solids are not read: a body in space must be a mesh "
-           "of MFEM or Gmsh");
    require(part.dimension == 2 || part.split.empty(), "mesh file has no line '", part.split,
            "' to split: only plane meshes have");
    require(part.split.empty() || !is_deck(file), "mesh file has no line '", part.split,

@@ -28,8 +28,8 @@ struct MeshPart
 
 /** The mesh in a user's file, of triangles and quadrilaterals in the plane: MFEM's format
    ("MFEM mesh v1.…", conforming), Gmsh's 4.1 or 2.2, ASCII or binary, or an .inp of CalculiX or
-   ABAQUS. In space (MeshPart::dimension) of MFEM or Gmsh, of hexahedra, tetrahedra and wedges,
-   from Gmsh of orders 1 and 2.
+   ABAQUS. In space (MeshPart::dimension) of hexahedra, tetrahedra and wedges, from Gmsh and
+   decks of orders 1 and 2.
 
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
     file is therefore checked first, section by section. InputError names the fault.

@@ -25,9 +25,9 @@ struct DeckMaterial
    double young = 0, poisson = 0;
 };
 
-/** Contents of an .inp of CalculiX or ABAQUS: plane bodies, or solids if it accompanies a
-    matrix. Names are in capitals. Of several instances only the chosen one is kept, and its
-    sets lose the name of the instance. */
+/** Contents of an .inp of CalculiX or ABAQUS: plane bodies, or solids. Names are in capitals.
+   Of several instances only the chosen one is kept, and its sets lose the name of the instance.
+ */
 struct InputDeck
 {
    using Nodes = NodalStiffness::Nodes;
@@ -38,7 +38,7 @@ struct InputDeck
       Nodes nodes; ///< corners, then the middles of its sides. The number of corners is 3 or 4
                    ///< for plane and axisymmetric elements, 2 for trusses, 0 for others.
       std::size_t corners = 0;
-      bool is_solid = false; ///< C3D4 to C3D20; only with a matrix
+      bool is_solid = false; ///< C3D4 to C3D20; not in the plane
       int section = 0;       ///< number of its *SOLID SECTION, from 1; 0: none
    };
 
@@ -62,7 +62,8 @@ struct InputDeck
 enum class DeckUse
 {
    stiffness, ///< nodes, supports and loads of a matrix
-   mesh       ///< only elements and names
+   mesh,      ///< only elements and names, of a plane body
+   solids     ///< the same of a body in space
 };
 
 /// Which body of a deck is read.
