@@ -308,6 +308,32 @@ def test_sides_that_do_not_match_pass_a_pressure(run, order):
         near_all([row["imbalance"] for row in got["balance"]], 0, 1e-10)
 
 
+@pytest.mark.rest
+def test_two_bodies_with_the_gap_of_a_sphere_are_cattaneos_and_mindlins(run):
+    """Two blocks of one material, halves of a model, with the initial gap of a sphere: pressed by P, then sheared by Q = f P / 2. The radius of
+    contact is Hertz's a, that of stick a (1 - Q/fP)^(1/3), to the estimates of table `areas` and what the blocks, of ten radii, change."""
+    young, poisson, radius, friction, force = 210e3, 0.3, 50, 0.3, 3000
+    case = shipped("sphere_on_block")
+    lower = case["bodies"].pop("block")
+    upper = json.loads(json.dumps(lower))
+    upper["block"]["z"] = {"points": [0, 1.2, 8, 10], "cells": [8, 5, 2], "growth": [1, 1.43, 1]}
+    upper["guides"] = {"on": "top", "x": {"force": "Q", "value": friction * force}, "y": "held", "z": {"force": "P", "value": -force}}
+    upper["support"] = "front[0<z<8]:y"
+    case["bodies"] = {"upper": upper, "lower": lower}
+    case["interfaces"] = {"ball": {"between": ["upper:bottom", "lower:top"], "friction": friction, "gap": f"(x^2+y^2)/{2 * radius}"}}
+    case.update(history=["P=0", "P=1", "Q=0.5"], increments=20)
+    for key in ("cycle-start", "cycles"):
+        case.pop(key)
+    got = run.case(case)
+    modulus = young / (1 - poisson**2) / 2
+    a = (0.75 * 2 * force * radius / modulus) ** (1 / 3)
+    areas = {row["state"]: row for row in got["areas"]}
+    contact, stick = (math.sqrt(2 * areas[name]["area"] / math.pi) for name in ("contact", "stick"))
+    near_relative(contact, a, areas["contact"]["area_error_estimate"] / areas["contact"]["area"] / 2 + 1e-3)
+    near_relative(stick, a * 0.5 ** (1 / 3), areas["stick"]["area_error_estimate"] / areas["stick"]["area"] / 2 + 1e-2)
+    near_relative(abs(got.interface("ball")["force_x"]), friction * force / 2, 1e-9)
+
+
 def test_the_shipped_sphere_slips_in_a_ring(run):
     case = shipped("sphere_on_block")
     case["bodies"]["block"]["block"]["x"]["cells"] = [3, 10, 3]
@@ -534,7 +560,7 @@ def test_more_mistakes(run):
             ("group.msh", whole.replace(" 5 2 7 7 ", " 5 2 0 7 "), ["of a volume", "no physical group"]),
             ("eight.msh", whole.replace("$EndElements", "").replace("$Elements\n7", "$Elements\n8") + "8 16 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n",
              ["order 2", "must be 1"]),
-            ("deck.inp", "*NODE\n", ["no elements", "C3D"])):
+            ("deck.inp", "*NODE\n1, 0, 0, 0\n", ["no elements", "C3D"])):
         case = block()
         case["bodies"]["block"].update(mesh=run.write(name, text))
         del case["bodies"]["block"]["block"]
