@@ -230,7 +230,10 @@ void wear_contact(Study &study)
       const ReducedProblem worn = with_gap(problem, now.depth);
       profiles.add(label, x, now.depth);
       pressures.add(label, x, tractions(worn, now.contact.p));
-      if (record.cycles == 0) { draw_loop(loops, label, scene, now, settings.march); }
+      if (record.cycles == 0)
+      {
+         draw_loop(loops, "first cycle", scene, now, settings.march);
+      }
    };
    WearReport report;
    {
@@ -297,7 +300,7 @@ void wear_contact(Study &study)
                      "' at ", where, ": ", report.message));
       if (report.status != FrictionStatus::not_unique) { throw Outcome(); }
    }
-   draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);
+   draw_loop(loops, exact_text("after cycle ", state.cycles), scene, state, settings.march);
    borders.add("it begins", times, from);
    borders.add("it ends", times, to);
    // Lengths across the pad have another unit than lengths along it: a²/R.

@@ -22,13 +22,22 @@ double endured_range(const FatigueMaterial &material)
    return (material.fatigue_limit_basis == Basis::range ? 1 : 2) * material.fatigue_limit.low;
 }
 
-/// The other measure that may say "not safe" beside the criterion of arrest.
-std::string against(const FrettingReport &report)
+/// Is it not safe by mode II, the measure for a slip zone that yields?
+bool fails_by_mode_two(const FrettingReport &report)
+{
+   return report.mode_two_utilisation > 1 && report.yield_ratio_full >= 1;
+}
+
+std::string mode_two_text(const FrettingReport &report)
 {
    if (!(report.mode_two_utilisation > 1)) { return ""; }
-   return text(" By mode II it is not safe: ΔK_II is %.4g times its threshold. Mode II counts "
-               "where the slip zone yields; the load is %.2g of that which makes it yield.",
-               report.mode_two_utilisation, report.yield_ratio_full);
+   const std::string times =
+      text(" ΔK_II is %.4g times its threshold", report.mode_two_utilisation);
+   return fails_by_mode_two(report)
+             ? times + ", and the slip zone yields: not safe by mode II."
+             : times + text(", but this measure is for a slip zone that yields, and this one "
+                            "does not (%.2g of that load).",
+                            report.yield_ratio_full);
 }
 
 std::string verdict_text(const FrettingReport &report, const FatigueMaterial &material)
@@ -61,7 +70,7 @@ std::string verdict_text(const FrettingReport &report, const FatigueMaterial &ma
                   : "") +
           " but stops at about " + text("%.4g µm", depth) +
           ", before the critical length. Safe by this criterion, the arrest of the crack." +
-          against(report);
+          mode_two_text(report);
 }
 
 /// The validity that lowers the trust most.
@@ -162,7 +171,7 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
    study.say(wrapped(verdict, 3) + wrapped(trust_text(r) + ", see the section on trust.", 3));
    Page page(study);
    study.lead["sentence"] = verdict + " " + trust_text(r) + ".";
-   study.lead["calm"] = r.threshold.verdict == CrackVerdict::arrests && against(r).empty();
+   study.lead["calm"] = r.threshold.verdict == CrackVerdict::arrests && !fails_by_mode_two(r);
    if (pad.kind != "kn")
    {
       page.beside(
@@ -173,9 +182,10 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
    }
    page.beside("material " + m.name,
                text("E %.4g GPa, ν %.4g, f %.4g", 1e-3 * m.young, m.poisson, pad.friction),
-               text("ΔK_th %.4g MPa√m = %.4g MPa√mm; fatigue limit %.4g MPa, shear yield "
-                    "%.4g MPa",
+               text("ΔK_th %.4g MPa√m = %.4g MPa√mm and fatigue limit %.4g MPa, both %s; shear "
+                    "yield %.4g MPa",
                     m.threshold / mpa_sqrt_m, m.threshold, m.fatigue_limit.low,
+                    m.fatigue_limit_basis == Basis::range ? "ranges" : "amplitudes",
                     m.shear_yield.low));
    study.say("1. What the contact edge feels");
    page.value("half_width", "half width a", a, "mm", "of the contact");

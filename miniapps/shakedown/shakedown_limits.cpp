@@ -20,8 +20,11 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
 {
    const bool found =
       of.status == LimitStatus::certified || of.status == LimitStatus::bracketed;
-   study.value(what + "_limit", of.limit,
-               "exact limit of the " + what + (what == "friction" ? ", f" : ", λ"));
+   const std::string limit_of =
+      "exact limit of the " + what +
+      (what == "friction" ? text(", f, for λ from %g to %g", lambda_max, lambda_max * reversal)
+                          : ", λ, for " + law() + text(" and R = %g", reversal));
+   study.value(what + "_limit", of.limit, limit_of);
    results[what + "_limit_status"] = name(of.status);
    study.say(found ? text("      proven between %.8f and %.8f", of.lower, of.upper)
                    : std::string("      none: ") + name(of.status));
@@ -39,7 +42,7 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
       study.lead = {
          {"sentence",
           told(
-             "The exact limit of the ", what, what == "friction" ? ", f" : ", λ",
+             "The ", limit_of,
              found ? told(", is ", name(of.status), ": it lies between ",
                           text("%.8f", of.lower), " and ", text("%.8f", of.upper))
                    : told(": ", name(of.status)),

@@ -53,7 +53,7 @@ def row(name, value, spread, mesh, thesis, computed):
 
     own = math.nan if spread is None else spread
     outside = apart(mesh if own == 0 else own)
-    verdict = "" if not apart(own) else "within the mesh's ±" if not outside else "outside" if apart(own + mesh) else "outside, within the mesh's ±"
+    verdict = "no reference" if value is None else "" if not apart(own) else "within the mesh's ±" if not outside else "outside" if apart(own + mesh) else "outside, within the mesh's ±"
     return {"name": name, "value": value, "spread": spread, "mesh": mesh, "thesis": thesis, "computed": computed, "verdict": verdict,
             "tolerance": None if spread is None else spread + mesh, "outside": outside}
 

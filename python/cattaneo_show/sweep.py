@@ -225,13 +225,15 @@ def slopes(parts, said):
             part["series"] = ", ".join([*filter(None, [part["series"]]), f"slope {slope:.3g}"])
 
 
-def curves(keys, points, names):
+def curves(keys, points, names, study=""):
     """A panel for each result over one key, with a curve for each value of the other keys."""
     over, panels = drawn_over(keys), []
     if over is None:
         return panels
     k = keys.index(over)
     label = called(over["name"])
+    if label == "amplitude" and lead(study, keys):
+        label = "amplitude (factor on the cycle, from its start)"
     for name, path in names.items():
         parts = {}
         slides = {}  # the status of each value at which a run ended early
@@ -300,7 +302,7 @@ def sweep(plan, draws):
         print(f"{len(names) - len(shown)} more results, which do not vary or are too many, are only in --json and --csv; "
               "--sweep-results names those to be shown")
     converged = sum(point.ended_well for point in points)
-    panels = curves(keys, points, {name: names[name] for name in shown or [name for name in names if name not in NOT_SHOWN][:1]})
+    panels = curves(keys, points, {name: names[name] for name in shown or [name for name in names if name not in NOT_SHOWN][:1]}, plan["study"])
     run.update(points=len(points), status="ended early" if missing else "converged")
     if converged < asked:
         run["status"] = "stopped" if len(points) < asked else "ended early"
@@ -328,7 +330,8 @@ def sweep(plan, draws):
 def lead(study, keys):
     """A sentence of the page on a key whose name alone says too little."""
     if study in ("contact", "march") and any(key["name"] == "amplitude" for key in keys):
-        return {"sentence": "The amplitude multiplies the differences of the cycle's loads from those where the cycle starts.", "rows": []}
+        return {"sentence": "The amplitude is a factor on the differences of the cycle's loads from those where the cycle starts, which stay. "
+                            "A cycle from Q = 1 to -1 and back goes with the amplitude 1.2 from 1 to -1.4.", "rows": []}
     return None
 
 
