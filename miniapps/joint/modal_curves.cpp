@@ -144,6 +144,33 @@ void draw_losses(Panel &panel, const std::string &label,
    }
 }
 
+/// The force of a bolt in a state of a problem with modes.
+double bolt_force(const ReducedProblem &problem, const ContactState &state,
+                  const JointCase::Bolt &bolt)
+{
+   const auto load = static_cast<Index>(problem.pattern(bolt.name));
+   return bolt.force * state.multipliers[load] -
+          bolt.stiffness / bolt.force * conjugates(problem, state)[load];
+}
+
+/// By the name of each bolt: the force that it has lost in the middle of a loop, and its least
+/// force in the loop.
+ordered_json bolt_forces(const ReducedProblem &problem, const ContactState &assembled,
+                         const ModalLoop &loop, const JointCase &joint)
+{
+   ordered_json all = ordered_json::object();
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      const double before = bolt_force(problem, assembled, bolt),
+                   high = bolt_force(problem, loop.peak, bolt),
+                   low = bolt_force(problem, loop.trough, bolt);
+      all[bolt.name] = {{"force", before},
+                        {"lost", before - 0.5 * (high + low)},
+                        {"least", std::min(high, low)}};
+   }
+   return all;
+}
+
 /// "mode 1 (slope 0.98)".
 std::string with_slope(const std::string &name, double slope)
 {
@@ -259,6 +286,7 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
                 {"dissipation", "loss" + study_.units.total(1), "%.4g"},
                 {"most_lost", "most at"},
                 {"slipping", "nodes slip"},
+                {"bolt_loss", joint.bolts.empty() ? "" : "a bolt loses [%]", "%.3g"},
                 {"status", "status"},
                 {"omega"},
                 {"omega_secant"},
@@ -272,10 +300,14 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
                 {"state_change"},
                 {"ratchet"},
                 {"sliding_force"}});
-   const std::string size = kind_ == "energy" ? "energy ½ α q" + study_.units.total(1)
-                            : kind_ == "point"
-                               ? "displacement at " + at_ + study_.units.of(0, 1)
-                               : "modal amplitude q = φᵀM x";
+   const std::string size =
+      kind_ == "energy" ? "energy ½ α q" + study_.units.total(1)
+      : kind_ == "point"
+         ? "displacement at " + at_ + study_.units.of(0, 1)
+         : "modal amplitude q = φᵀM x " +
+              (study_.units.length.empty()
+                  ? std::string("[length √mass]")
+                  : "[s √(" + study_.units.force + " " + study_.units.length + ")]");
    Panel &frequency = study_.lines("frequency", "Frequency over amplitude", size,
                                    "frequency over that of the glued mode");
    Panel &damping = study_.lines("damping", "Damping over amplitude", size, "damping ratio ζ");
@@ -317,20 +349,18 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
          }
       }
       std::sort(sizes.begin(), sizes.end());
-      ModalLoop drawn, slid;
-      double near =
-         glued; // frequency of the previous loop, which is close to that of the next one
-      for (const double its : sizes)
+      sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+      ModalLoop drawn;
+      const std::vector<ModalLoop> found =
+         modal_curve(solver, problem, state, name, glued, sizes, settings);
+      for (std::size_t j = 0; j < sizes.size(); ++j)
       {
-         // Beyond an amplitude at which the joint slides, it slides as well.
-         const bool beyond = std::isfinite(slid.sliding_force);
-         const ModalLoop loop =
-            beyond ? slid : modal_loop(solver, problem, state, name, near, its, settings);
+         const ModalLoop &loop = found[j];
+         const double its = sizes[j];
          const bool slides = std::isfinite(loop.sliding_force);
          const bool known = loop.force > 0 && loop.steady && !slides &&
                             (loop.status == FrictionStatus::converged ||
                              loop.status == FrictionStatus::not_unique);
-         if (slides) { slid = loop; }
          if (!known && !slides)
          {
             study_.code = 2;
@@ -346,9 +376,11 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
             }
             warn(name + text(", amplitude %g: ", its) + loop.message + where);
          }
-         row(table, loop, its, {k + 1, glued, at_point, known}, faces);
+         row(table, loop, its,
+             {k + 1, glued, at_point, known,
+              known ? bolt_forces(problem, state, loop, joint) : ordered_json::object()},
+             faces);
          if (!known) { continue; }
-         near = loop.omega_secant;
          x.push_back(drawn_size(loop, at_point));
          zeta.push_back(loop.zeta);
          ratio.push_back(loop.omega / glued);
@@ -413,7 +445,14 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
          most_at = face.name + text(" (%.0f %%)", 100 * most / loop.dissipation);
       }
    }
-   // 2. The row.
+   // 2. The largest share of its force that a bolt loses.
+   double bolt_loss = none;
+   for (const auto &[name, bolt] : of.bolts.items())
+   {
+      const double share = 100 * bolt["lost"].get<double>() / bolt["force"].get<double>();
+      if (!(bolt_loss >= share)) { bolt_loss = share; }
+   }
+   // 3. The row.
    const bool slides = std::isfinite(loop.sliding_force);
    const auto or_none = [&](double value) { return of.known ? value : none; };
    study_.row(table,
@@ -426,6 +465,7 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
                or_none(loop.dissipation),
                most_at,
                slipping,
+               bolt_loss,
                slides             ? text("slides at %.4g", loop.sliding_force)
                : loop.ratchet > 0 ? text("moves on by %.3g in each cycle", loop.ratchet)
                : loop.force > 0 && !loop.steady ? text("not steady after %d cycles", loop.cycle)
@@ -442,7 +482,7 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
                loop.change,
                loop.ratchet,
                loop.sliding_force},
-              {}, {{"interfaces", interfaces}, {"message", loop.message}});
+              {}, {{"interfaces", interfaces}, {"bolts", of.bolts}, {"message", loop.message}});
 }
 
 } // namespace miniapp

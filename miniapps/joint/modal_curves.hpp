@@ -38,6 +38,7 @@ private:
       Eigen::Index mode;
       double glued, at_point;
       bool known;
+      nlohmann::ordered_json bolts; ///< by name: force that each has lost
    };
    /// The label of the axis of amplitudes.
    double drawn_size(const cattaneo::ModalLoop &loop, double at_point) const;
