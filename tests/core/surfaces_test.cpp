@@ -20,6 +20,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
+#include <set>
 
 namespace
 {
@@ -1268,6 +1269,78 @@ TEST(Surfaces, InterfacesThatMeetAtAnEdgeFormNoRing)
    EXPECT_LT((on_left.colwise().sum() - Eigen::RowVector3d(-0.05, 1, 0)).norm(), 1e-12);
    EXPECT_LT((on_right.colwise().sum() - Eigen::RowVector3d(0.05, 1, 0)).norm(), 1e-12);
    EXPECT_LT((on_base.colwise().sum() - Eigen::RowVector3d(0, -2, 0)).norm(), 1e-12);
+}
+
+/// The same with other cells on each side. Wherever the nodes are, each node has one row, and
+/// all bodies are in balance: no force is counted twice at the edge where the three meet.
+TEST(Surfaces, InterfacesThatDoNotMatchShareAnEdge)
+{
+   NodalStiffness left = block({3, 2, 3}, {-1, 0, 0}, {1, 1, 1}, 1, 0.2),
+                  right = block({2, 3, 2}, {0, 0, 0}, {1, 1, 1}, 1, 0.2),
+                  base = block({8, 1, 5}, {-1, -1, 0}, {2, 1, 1}, 3, 0.2);
+   for (int c : {1, 2, 3}) { base.fix(base.nodes_of("BOTTOM"), c); }
+   const auto part =
+      [](const NodalStiffness &body, const std::function<bool(double, double)> &on)
+   {
+      Nodes found;
+      for (const auto &[node, place] : body.places)
+      {
+         if (on(place[0], place[1])) { found.push_back(node); }
+      }
+      return body.contact_surface(found);
+   };
+   for (NodalStiffness *body : {&left, &right})
+   {
+      body->add_surface_traction("P", body->nodes_of("TOP"), Vector3d(0, -1, 0));
+   }
+   left.add_surface_traction("S", left.nodes_of("TOP"), Vector3d(0.05, 0, 0));
+   right.add_surface_traction("S", right.nodes_of("TOP"), Vector3d(-0.05, 0, 0));
+   const auto beside = [](double x, double) { return x == 0; };
+   const ContactSurface left_down = left.contact_surface(left.nodes_of("BOTTOM")),
+                        right_down = right.contact_surface(right.nodes_of("BOTTOM")),
+                        left_side = part(left, beside), right_side = part(right, beside),
+                        base_left =
+                           part(base, [](double x, double y) { return y == 0 && x <= 0; }),
+                        base_right =
+                           part(base, [](double x, double y) { return y == 0 && x >= 0; });
+   const std::vector<CondensedBody> bodies = {
+      condense(left.body(), joined({left_down, left_side})),
+      condense(right.body(), joined({right_down, right_side})),
+      condense(base.body(), joined({base_left, base_right}))};
+   for (const SlaveSide feet : {SlaveSide::first, SlaveSide::second})
+   {
+      for (const SlaveSide between : {SlaveSide::first, SlaveSide::second})
+      {
+         std::vector<Interface> interfaces(3);
+         interfaces[0] = {"left foot", {0, {}, left_down}, {2, {}, base_left}, feet};
+         interfaces[1] = {"right foot", {1, {}, right_down}, {2, {}, base_right}, feet};
+         interfaces[2] = {"between", {0, {}, left_side}, {1, {}, right_side}, between};
+         const Reduction reduction = reduce(bodies, interfaces);
+         const ReducedProblem &problem = reduction.problem;
+         double area = problem.weights.sum();
+         for (const InterfaceReport &face : reduction.interfaces) { area += face.left_out; }
+         EXPECT_NEAR(area, 3, 1e-9);
+         // Contact nodes of one body are at different places.
+         std::set<std::array<int, 3>> taken;
+         for (const InterfaceReport &face : reduction.interfaces)
+         {
+            for (Eigen::Index i = 0; i < face.nodes; ++i)
+            {
+               const auto dofs =
+                  problem.dofs.row(face.first + i).segment(3 * face.bodies[0], 3).eval();
+               EXPECT_TRUE(
+                  taken.insert({1000 * face.bodies[0] + dofs[0], dofs[1], dofs[2]}).second);
+            }
+         }
+         const ContactState state = pressed(problem, 0.3);
+         const MatrixXd on_left = reduction.contact_forces(0, state.q, state.p),
+                        on_right = reduction.contact_forces(1, state.q, state.p),
+                        on_base = reduction.contact_forces(2, state.q, state.p);
+         EXPECT_LT((on_left.colwise().sum() - Eigen::RowVector3d(-0.05, 1, 0)).norm(), 1e-11);
+         EXPECT_LT((on_right.colwise().sum() - Eigen::RowVector3d(0.05, 1, 0)).norm(), 1e-11);
+         EXPECT_LT((on_base.colwise().sum() - Eigen::RowVector3d(0, -2, 0)).norm(), 1e-11);
+      }
+   }
 }
 
 TEST(Surfaces, ObstaclesMoveAsTheBodyWouldTheOtherWay)
