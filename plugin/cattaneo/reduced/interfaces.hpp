@@ -83,11 +83,11 @@ struct Interface
     the interfaces; loads that push along it are refused. If the slave of an interface is much
     stiffer than its master, digits are lost: six at a ratio of 1e6 of the stiffnesses.
 
-    Bodies in space meet at surfaces whose nodes match (pair_surfaces(), unless a pairing is
-    given), or lie on rigid obstacles. SlaveSide::second gives the nodes to the second side, all
-    others give them to the first. A row that would close a ring is left out
-    (InterfaceReport::in_rings). First tangents of all nodes come first, then second ones, then
-    the normals.
+    Bodies in space meet at surfaces, or lie on rigid obstacles. Where nodes and faces of both
+    sides match they are paired (SlaveSide::second keeps the nodes of the second side), else
+    SurfaceMortar couples them. Unless it is named, a side within the other one is the slave. A
+    row that would close a ring is left out (InterfaceReport::in_rings). First tangents of all
+    nodes come first, then second ones, then the normals.
 
     InputError, with the names of interface and bodies and coordinates, if numbers of bodies or
     nodes do not fit, a body is at no interface, sides do not face each other or overlap by more
