@@ -283,10 +283,14 @@ std::vector<ContactRow> rows_with_slave(const std::vector<CondensedBody> &bodies
          std::string why;
          rows.push_back(row_of_mortar(bodies, met, i, why));
          if (refused.empty()) { refused = why; }
+         // A node of both sides, such as the tip of a crack, would depend on itself.
          std::vector<NodeOfBody> by;
          for (const TraceShare &share : rows.back().shares)
          {
-            if (share.of != rows.back().slave) { by.push_back(share.of); }
+            const bool faces_itself =
+               met.slave.body == met.master.body &&
+               std::count(met.master.nodes.begin(), met.master.nodes.end(), share.of.second);
+            if (share.of != rows.back().slave || faces_itself) { by.push_back(share.of); }
          }
          if (trial.determine(rows.back().slave, by)) { continue; }
          met.without_row.push_back(met.surfaces.nodes[i]);
