@@ -424,6 +424,10 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
    }
    own.scene.reduction = reduce(std::move(condensed), interfaces);
    check_overlaps(joint, own.scene.reduction);
+   for (const InterfaceReport &face : own.scene.reduction.interfaces)
+   {
+      warn_of_left_out(face);
+   }
    set_laws(joint, own.scene.reduction);
    add_bolts(own.scene.reduction, own.bolted, joint,
              [&joint](Reduction &made) { move_obstacles_in_space(made, joint); });

@@ -43,7 +43,8 @@ void warn_of_left_out(const InterfaceReport &interface)
 {
    if (interface.left_out <= 0) { return; }
    warn("interface '", interface.name, "': ", interface.left_out,
-        " of its length (about an axis: of its area) faces the other side, but no contact node "
+        " of its length (about an axis and in space: of its area) faces the other side, but no "
+        "contact node "
         "there can carry a force: choose the other side by key 'slave', or use finer elements "
         "there");
 }

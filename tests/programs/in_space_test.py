@@ -334,6 +334,20 @@ def test_two_bodies_with_the_gap_of_a_sphere_are_cattaneos_and_mindlins(run):
     near_relative(abs(got.interface("ball")["force_x"]), friction * force / 2, 1e-9)
 
 
+def test_what_no_node_can_carry_is_warned_of(run):
+    """A side that reaches over 1e-6 of the next cells: their nodes have no row, and the area is said."""
+    def one(x, z, cells, **keys):
+        return {"block": brick((x, cells), ([0, 1], 2), (z, 1)), "young": 1, "poisson": 0, **keys}
+    case = {"analysis": "space", "order": 1,
+            "bodies": {"top": one([0.25 - 1e-6, 0.75], [0, 1], 3, load="P pressure top 0.001"), "foot": one([0, 1], [-1, 0], 4, support="bottom:xyz")},
+            "interfaces": {"face": {"between": ["top:bottom", "foot:top"], "friction": 0.5, "slave": "second"}}}
+    got = run.case(case)
+    assert "(about an axis and in space: of its area) faces the other side" in got.warned()
+    near_relative(got.interface("face")["force_z"], 0.001 * (0.5 + 1e-6), 1e-12)
+    case["interfaces"]["face"]["slave"] = "first"
+    assert run.case(case).warned() == ""
+
+
 def test_the_shipped_sphere_slips_in_a_ring(run):
     case = shipped("sphere_on_block")
     case["bodies"]["block"]["block"]["x"]["cells"] = [3, 10, 3]
