@@ -303,9 +303,11 @@ std::vector<ContactRow> rows_with_slave(const std::vector<CondensedBody> &bodies
 
 /** The slave is the side that lies within the other one, else the coarser one, whose nodes are
     farther apart in the geometric mean, else the first, unless the caller named it. If supports
-    do not let it be the slave, the other side is. */
+    do not let it be the slave, the other side is. If they let neither, `refused` says why, and
+    nothing is joined. */
 std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
-                                       JoinedNodes &joined, MetInterface &met)
+                                       JoinedNodes &joined, MetInterface &met,
+                                       std::string &refused)
 {
    const Interface &given = *met.given;
    const bool free = given.slave == SlaveSide::coarser || given.slave == SlaveSide::finer;
@@ -339,7 +341,6 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
                                                                   : coarser < 0;
       if (first == second ? by_spacing : second) { exchange(); }
    }
-   std::string refused;
    std::vector<ContactRow> rows = rows_with_slave(bodies, joined, met, refused);
    if (!refused.empty() && free)
    {
@@ -348,7 +349,7 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
       rows = rows_with_slave(bodies, joined, met, other);
       if (other.empty()) { refused.clear(); }
    }
-   require(refused.empty(), refused);
+   if (!refused.empty()) { return {}; }
    const SurfaceMortar &found = met.surfaces;
    met.mortar.nodes = found.nodes;
    met.mortar.weights = found.weights;
@@ -368,23 +369,25 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
    return rows;
 }
 
-/// The pairs of two sides, if every node has a partner and the faces between them are the same
-/// (or none are known): equal tractions then give equal forces on nodes that face each other.
+/// The pairs of two sides, if every node has a partner.
 std::optional<Pairing> matching_nodes(const ContactSurface &slave, const ContactSurface &master)
 {
-   if (slave.size() != master.size() || slave.faces.size() != master.faces.size())
-   {
-      return {};
-   }
-   Pairing pairs;
+   if (slave.size() != master.size()) { return {}; }
    try
    {
-      pairs = pair_surfaces(slave, master);
+      return pair_surfaces(slave, master);
    }
    catch (const InputError &)
    {
       return {};
    }
+}
+
+/// Are the faces between paired nodes the same on both sides (or none known)? Equal tractions
+/// then give equal forces on nodes that face each other.
+bool have_equal_faces(const ContactSurface &slave, const ContactSurface &master,
+                      const Pairing &pairs)
+{
    std::set<std::set<Index>> own, its;
    for (const std::vector<Index> &face : slave.faces)
    {
@@ -396,7 +399,7 @@ std::optional<Pairing> matching_nodes(const ContactSurface &slave, const Contact
    {
       its.emplace(face.begin(), face.end());
    }
-   return own == its ? std::optional<Pairing>(pairs) : std::nullopt;
+   return own == its;
 }
 
 } // namespace
@@ -484,7 +487,20 @@ std::vector<ContactRow> rows_on_surfaces(const Interface &given,
       if (!paired.pairing)
       {
          paired.pairing = matching_nodes(met.slave.surface, met.master.surface);
-         if (!paired.pairing) { return rows_of_mortar(bodies, joined, met); }
+         if (!paired.pairing ||
+             !have_equal_faces(met.slave.surface, met.master.surface, *paired.pairing))
+         {
+            std::string refused;
+            std::vector<ContactRow> made = rows_of_mortar(bodies, joined, met, refused);
+            if (refused.empty()) { return made; }
+            // Nodes that face each other meet one by one where supports of both sides let
+            // neither be the slave.
+            require(paired.pairing.has_value(), refused);
+            paired.pairing = matching_nodes(met.slave.surface, met.master.surface);
+            met.surfaces = {};
+            met.without_row.clear();
+            gaps.setZero(met.slave.surface.size());
+         }
       }
       partners = partners_of(paired, met);
       gaps = paired.pairing->gap;
