@@ -185,7 +185,7 @@ void wear_contact(Study &study)
                              {"volume", "worn volume" + in("a³/R"), "%.6g"},
                              {"depth", "depth" + in("a²/R"), "%.6g"},
                              {"dissipation", "energy lost so far" + in("P a²/R"), "%.6g"},
-                             {"loss", "in the cycle", "%.4g"},
+                             {"loss", "in the cycle" + in("P a²/R"), "%.4g"},
                              {"stick", "stick half-width" + in("a"), "%.5g"}});
    table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}},
               "worn volume" + in("a³/R"));
@@ -230,10 +230,7 @@ void wear_contact(Study &study)
       const ReducedProblem worn = with_gap(problem, now.depth);
       profiles.add(label, x, now.depth);
       pressures.add(label, x, tractions(worn, now.contact.p));
-      if (record.cycles == 0)
-      {
-         draw_loop(loops, "first cycle", scene, now, settings.march);
-      }
+      if (record.cycles == 0) { draw_loop(loops, "first cycle", scene, now, settings.march); }
    };
    WearReport report;
    {
@@ -301,8 +298,8 @@ void wear_contact(Study &study)
       if (report.status != FrictionStatus::not_unique) { throw Outcome(); }
    }
    draw_loop(loops, exact_text("after cycle ", state.cycles), scene, state, settings.march);
-   borders.add("it begins", times, from);
-   borders.add("it ends", times, to);
+   borders.add("left end", times, from);
+   borders.add("right end", times, to);
    // Lengths across the pad have another unit than lengths along it: a²/R.
    if (!file.empty()) { warn_of_depth(problem, state.depth, state.contact); }
    if (coefficient == 0 || threshold > 0)

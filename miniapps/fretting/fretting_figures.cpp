@@ -514,7 +514,10 @@ void correlate(Study &study, const std::string &file, const Pad &common,
       const std::string of = used.size() > 1 ? ", " + material : "";
       const auto level = [&](Panel &panel, const std::string &name, double y)
       { across(panel, name + of, y); };
-      level(stress, "plain fatigue limit", properties.fatigue_limit.low);
+      level(stress,
+            properties.fatigue_limit_basis == Basis::range ? "range at the plain fatigue limit"
+                                                           : "amplitude of the plain limit",
+            properties.fatigue_limit.low);
       const double threshold =
          criteria.mode_two_ratio * properties.threshold / mode_two_range(1);
       level(mode_two, "mode II threshold", threshold);

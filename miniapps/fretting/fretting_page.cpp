@@ -36,7 +36,7 @@ std::string mode_two_text(const FrettingReport &report)
    return fails_by_mode_two(report)
              ? times + ", and the slip zone yields: not safe by mode II."
              : times + text(", but this measure is for a slip zone that yields, and this one "
-                            "does not (%.2g of that load).",
+                            "does not (%.2g of the load of full yield).",
                             report.yield_ratio_full);
 }
 
@@ -155,8 +155,6 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
    const PadEdge *const edge = !solved                     ? nullptr
                                : judged.edge == "trailing" ? &solved->trailing
                                                            : &solved->leading;
-   const auto and_solved = [&](double x, const std::string &unit)
-   { return std::isfinite(x) ? "; of the solved contact: " + number(x, unit) : ""; };
    const EnergyComparison energy =
       edge && edge->energy ? *edge->energy : EnergyComparison{none, none, none, none};
    study.title("FRETTING ASSESSMENT: " + pad.kind + " pad, " + m.name + ", " +
@@ -204,8 +202,13 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
 
    study.title("2. Slip and stress");
    page.value("slip_zone", "slip zone d", r.slip_zone, "mm",
-              (a > 0 ? number(100 * r.slip_zone / a, "% of a, ") : "") + field +
-                 and_solved(edge ? edge->edge.slip_zone : none, "mm"));
+              (a > 0 ? number(100 * r.slip_zone / a, "% of a, ") : "") + field);
+   if (edge)
+   {
+      page.line("slip zone d, contact", number(edge->edge.slip_zone, "mm"),
+                "± " + text("%.2g", edge->edge.slip_zone_error) +
+                   " (estimate), of the solved contact");
+   }
    page.value("edge_stress", "edge stress", r.edge_stress, "MPa",
               "along the surface, at peak load, by the edge field");
    if (solved)
@@ -259,11 +262,20 @@ void print_page(Study &study, const Pad &pad, const SolvedPad *solved,
               "above 1 not safe, where the slip zone yields");
 
    study.title("4. Frictional energy per cycle");
-   page.value("energy_max", "energy, largest", r.energy_max, "N/mm",
-              "per area (= mJ/mm²), a quarter into the slip zone, " + field +
-                 and_solved(energy.computed_max, "N/mm"));
-   page.value("energy_total", "energy, total", r.energy_total, "N",
-              "per mm of edge (= mJ/mm), " + field + and_solved(energy.computed_total, "N"));
+   const auto beside_solved =
+      [&](const std::string &what, double value, const std::string &unit)
+   {
+      if (std::isfinite(value))
+      {
+         page.line(what, number(value, unit), "of the solved contact");
+      }
+   };
+   page.value("energy_max", "energy/cycle, largest", r.energy_max, "N/mm",
+              "per area (= mJ/mm²), a quarter into the slip zone, " + field);
+   beside_solved("energy/cycle, largest", energy.computed_max, "N/mm");
+   page.value("energy_total", "energy/cycle, total", r.energy_total, "N",
+              "per mm of edge (= mJ/mm), " + field);
+   beside_solved("energy/cycle, total", energy.computed_total, "N");
 
    study.title("5. How far to trust it");
    Json validity = Json::array();

@@ -50,7 +50,7 @@ def fields(run):
 
 def materials():
     shown = json.loads((runs.SOURCE / "miniapps/data/materials.json").read_text(encoding="utf-8"))["materials"]
-    keys = {"name": "material", "young_GPa": "E, GPa", "poisson": "ν", "threshold_MPa_sqrt_m": "ΔK_th, MPa√m", "fatigue_limit_MPa": "σ_fl, MPa",
+    keys = {"name": "material", "young_GPa": "E, GPa", "poisson": "ν", "threshold_MPa_sqrt_m": "ΔK_th, MPa√m", "fatigue_limit_MPa": "σ_fl (range), MPa",
             "shear_yield_MPa": "k, MPa", "friction": "f", "source": "source"}
 
     def cell(value):
@@ -176,7 +176,7 @@ The remark before figure 2.3: with little friction the severest point lies below
 in full slip, and more in partial slip.""", lambda run: f.panels((run, "transition", {"title": ""})), rows="severest")
 figure("Table 2.1", "Materials", "fretting --material Al", "The records that the program ships; the thesis' values, with their sources in its bibliography.", lambda run: materials())
 for letter, (command, words) in TESTS.items():
-    figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge, √(8 f K_N K_T) at peak load. Hollow: not broken.",
+    figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge. At peak load this stress is √(8 f K_N K_T); for reversed loads its range is twice that. The line is the range at the fatigue limit. Hollow: not broken.",
            tests("stress"), wrong="""
 The thesis has half of this stress, √(2 f K_N K_T) = f K_N √d: at the edge σ_xx is 2 f K_N √d, and the 2 is left out. The misprint in (2.12), 2 for √2, is another fault, which would make the stress √2 too large.""",
            proof=FIELD)

@@ -136,7 +136,7 @@ T acts uniformly on the loaded end of each lap. Nodes in the middle of these end
 figure("6.2b", "The mesh", "lap_joint --check", "The finite elements of the laps, finest where contact ends.",
        lambda run: f.panels((run, "mesh", {"title": ""})))
 figure("6.3", "Load history, and the states of the contact", joint(0.04, 0.2) + " -spacing 0.0025", """
-P is applied and held; then T goes between 0 and Tmax. Numbers are the states of figures 6.4 and 6.7. Right: where the contact sticks, slips and is open in each of them, Tmax = 0.04 P0, f = 0.2.""", states)
+P is applied and held; then T goes between 0 and Tmax (not to scale). Numbers are the states of figures 6.4 and 6.7. Right: where the contact sticks, slips and is open in each of them, Tmax = 0.04 P0, f = 0.2.""", states)
 figure("6.4", "Tractions, tension", joint(0.04, 0.2), """
 Pressure and shear over f in the seven states of figure 6.3, Tmax = 0.04 P0, f = 0.2. Tension shrinks the contact; the pressure comes back with T, while the shear leaves
 a pattern with reverse slip at T = 0, and is then the same in every cycle.""", tractions, rows="a0|peak|^a/t|c/a|steady, T = 0.04",

@@ -116,7 +116,7 @@ def draw_lines(axes, comments, rows):
             line.set_label(f"{line.get_label()} (no loss, not on this axis)" if "loss" in "".join(comments["title"]).lower() else f"{line.get_label()} (0, not on this axis)")
     said = labelled - {""}
     if len(labelled) > 1 or said and not said & set(comments["y"][0].split()):  # the axis names a single curve
-        legend_below(axes)
+        legend_below(axes, -0.24 if comments["scale"] else -0.2)
 
 
 def along_line(said, label, names=()):
@@ -151,6 +151,9 @@ def draw_zones(axes, comments, rows):
             ends = sorted(along("", value(row[key])) for key in ("from", "to"))
             row.update(zip(("from", "to"), ends))
         rows = sorted(rows, key=lambda row: (value(row["time"]), row["from"]))
+        way = float(comments["straight"][0].rpartition("=")[2].split(",")[1])
+        if comments["title"] and any(row["state"].startswith(("forward", "backward")) for row in rows):
+            comments["title"] = [f"{comments['title'][0]} (forward: to {'larger' if way > 0 else 'smaller'} {comments['y'][0][:1]})"]
     marks = [row for row in rows if row["state"] == "thesis"]
     steps = OrderedDict()
     for row in rows:
@@ -190,12 +193,12 @@ def draw_zones(axes, comments, rows):
     legend_above(axes, handles)
 
 
-def legend_below(axes):
+def legend_below(axes, under=-0.2):
     """Places the legend where it covers no curve, in as many columns as fit."""
     handles, labels = axes.get_legend_handles_labels()
     labels = [symbols(label) for label in labels]
     columns = max(1, min(len(labels), 62 // (max(map(len, labels)) + 7)))
-    axes.legend(handles, labels, fontsize=8, ncol=columns, loc="upper center", bbox_to_anchor=(0.5, -0.2), frameon=False,
+    axes.legend(handles, labels, fontsize=8, ncol=columns, loc="upper center", bbox_to_anchor=(0.5, under), frameon=False,
                 handlelength=2.6, columnspacing=1.4)
 
 
@@ -395,7 +398,10 @@ def caption(run):
     """The case and the study of a run."""
     case = run["shown"]["options"].get("case") or ""
     title = case.replace("\\", "/").rpartition("/")[2].removesuffix(".json")
-    return f"{title} ({run['shown']['study']})" if title else run["shown"]["study"]
+    if title:
+        return f"{title} ({run['shown']['study']})"
+    given = " ".join(f"--{name} {text}" for name, text in run["shown"].get("given", {}).items() if not isinstance(text, bool) and text not in (None, ""))
+    return f"{run['shown']['study']} {given}".strip()[:110]
 
 
 # Text of 9 points, and letters that stay letters in a PDF.

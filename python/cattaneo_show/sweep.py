@@ -197,6 +197,7 @@ def words_of(points, name):
         for value in point.results.get("shown", {}).get("values", []):
             if value.get("key") == name and value["label"]:
                 label, bracket, unit = value["label"].partition(" [")
+                label += " at the end" if name == "peak_pressure" else ""
                 return label, f" [{value['unit']}]" if value["unit"] else bracket + unit
     energy = next((point.results["shown"]["units"].get("energy", "") for point in points if "shown" in point.results), "")
     word = "energy lost in the whole history" if name == "total_dissipation" else name.replace("_", " ")
@@ -256,7 +257,7 @@ def curves(keys, points, names, study=""):
         if parts:
             slopes(parts, scale(parts.values()))
             said, unit = words_of(points, name)
-            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": said[:1].upper() + said[1:], "x": label, "y": said + unit.partition(" (")[0],
+            panels.append({"name": f"over_{over['name']}_{name}", "kind": "lines", "title": said[:1].upper() + said[1:] + (" (depends on the mesh)" if "depends on the mesh" in unit else ""), "x": label, "y": said + unit.partition(" (")[0],
                            **scale(parts.values()), **shaded, "parts": list(parts.values())})
     return panels
 
@@ -315,7 +316,7 @@ def sweep(plan, draws):
     run.update(sweep=table.rows, references=[], seconds=time.monotonic() - begun, counters=counters, blas_kernels=plan["blas_kernels"],
                warnings=warnings)
     units = next((point.results["shown"]["units"] for point in points if "shown" in point.results), {"length": "", "pressure": ""})
-    run["shown"] = {"study": plan["study"], "event": "", "units": units, "options": options, "values": [], "lead": lead(plan["study"], keys), "tables": [in_words(table.printed(), keys, points)] if points else [],
+    run["shown"] = {"study": plan["study"], "event": "", "units": units, "options": options, "values": [], "lead": lead(plan["study"], keys, points), "tables": [in_words(table.printed(), keys, points)] if points else [],
                     "csv": [{"name": "sweep", "columns": table.keys()}], "panels": panels, "marches": [], "more_marches": 0}
     if options["verbose"]:
         print(f"\nWhat it took, {run['seconds']:.3g} s")
@@ -327,18 +328,20 @@ def sweep(plan, draws):
     return 0 if converged == asked and not missing else 2
 
 
-def lead(study, keys):
-    """A sentence of the page on a key whose name alone says too little."""
+def lead(study, keys, points=()):
+    """A sentence of the page on a key whose name alone says too little, and the loads."""
+    sizes = next((point.results["load_sizes"] for point in points if point.results.get("load_sizes")), [])
     if study in ("contact", "march") and any(key["name"] == "amplitude" for key in keys):
         return {"sentence": "The amplitude is a factor on the differences of the cycle's loads from those where the cycle starts, which stay. "
-                            "A cycle from Q = 1 to -1 and back goes with the amplitude 1.2 from 1 to -1.4.", "rows": []}
+                            "A cycle from Q = 1 to -1 and back goes with the amplitude 1.2 from 1 to -1.4.",
+                "rows": [[f"{load['load']} = 1", f"{load['size']:g}", load["force"] if load["kind"] != "displacement" else load["displacement"]] for load in sizes]}
     return None
 
 
 def in_words(printed, keys, points):
     """The table of the page: columns as the program calls them, with units."""
     known = {key["name"] for key in keys}
-    head = [called(name) if name in known else "".join(words_of(points, name)) for name in printed["head"]]
+    head = [called(name) if name in known else "at (loads as factors)" if name == "at" else "".join(words_of(points, name)) for name in printed["head"]]
     return {**printed, "head": head}
 
 
