@@ -240,7 +240,7 @@ def curves(keys, points, names, study=""):
         slides = {}  # the status of each value at which a run ended early
         for point in points:
             y = result(point.results, path)
-            if not point.ended_well and point.ran:
+            if not point.ended_well and point.ran and point.status != "stopped":  # Ctrl-C says nothing of the joint
                 slides[point.values[k]] = point.status
             if not is_number(y) or not point.ended_well:
                 continue
