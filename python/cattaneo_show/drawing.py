@@ -360,7 +360,7 @@ def one_power(axis, largest):
     power = math.floor(math.log10(largest)) if 0 < largest < math.inf else 0
     if -2 <= power < 5:
         return
-    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x / 10.0**power:.6g}"))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x / 10.0**power:.6g}".replace("-", "−")))
     name, bracket, unit = axis.get_label_text().rpartition(" [")
     ten = f"$10^{{{power}}}$"
     axis.set_label_text(f"{name} [{ten} {unit}" if bracket else f"{unit} [{ten}]")
