@@ -451,11 +451,11 @@ def sheet(panels, title=""):
 
 
 def figure(run, names=None):
-    """All panels of a run, or those of these names. One alone is for a paper, and has no title of the run."""
+    """All panels of a run, or those of these names. Chosen ones are for a paper, and have no title of the run."""
     panels = drawn_panels(run, names)
     if not panels:
         raise Refused("the run has nothing to draw")
-    return sheet(panels, caption(run) if len(panels) > 1 else "")
+    return sheet(panels, "" if names or len(panels) == 1 else caption(run))
 
 
 def save(made, file, **options):
