@@ -305,8 +305,8 @@ void check_overlaps(const JointCase &joint, const Reduction &reduction)
          require(overlap <= most, face.source.called(face.solid ? "obstacle" : "between"),
                  ": the sides overlap by ", overlap, " at (", at[0], ", ", at[1], ", ", at[2],
                  "), at most ", most,
-                 " is allowed, a tenth of the distance of nodes: move one of them, or give the "
-                 "key 'gap'");
+                 " is allowed, a tenth of the distance of nodes: move one of them",
+                 face.solid ? "" : ", or give the key 'gap'");
       }
    }
 }

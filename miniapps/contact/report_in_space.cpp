@@ -213,6 +213,7 @@ void ReportInSpace::report_reactions(const ContactState &state, const BoltsRepor
    Reduction &reduction = own_.scene.reduction;
    const VectorXd tied = reduction.tied_forces(state.v, state.w, state.multipliers);
    double worst = 0;
+   bool loaded = false; // is there a force on any body?
    for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
    {
       const auto number = static_cast<int>(b);
@@ -277,11 +278,15 @@ void ReportInSpace::report_reactions(const ContactState &state, const BoltsRepor
          study_.row(table, {reduction.bodies[b].name, holding.kind, holding.name, sum[0],
                             sum[1], sum[2]});
       }
+      // Smaller forces are round-off of a body that moves or expands without any.
+      const double small = 1e-12 * body.stiffness().MaxNorm() * field.cwiseAbs().maxCoeff();
       const double imbalance =
-         largest > 0 ? std::max(force.norm(), moment.norm() / arm) / largest : 0;
+         largest > small ? std::max(force.norm(), moment.norm() / arm) / largest : 0;
+      loaded = loaded || largest > small;
       worst = std::max(worst, imbalance);
       study_.row(balance, {reduction.bodies[b].name, imbalance});
    }
+   if (!loaded) { return; }
    study_.say(
       text("\nEach body is in balance to %.1e of the largest force on a node of it", worst));
 }

@@ -479,6 +479,17 @@ def test_stacks_ties_and_moving_planes(run):
     near(foot["force_z"], 0.01, 1e-12)
 
 
+def test_a_balance_without_forces_is_none(run):
+    """A block that expands freely has forces of round-off only, which are not said to be out of balance."""
+    case = block("H temperature 50", 0, expansion=1e-3, support="@0,0,1:xyz @2,0,1:y")
+    case["interfaces"]["floor"]["obstacle"]["plane"]["point"] = [0, 0, -1]
+    case["history"] = ["H=0", "H=1"]
+    got = run.case(case)
+    near_all([row["imbalance"] for row in got["balance"]], 0, 1e-10)
+    pressed = run.case(block())
+    assert "Each body is in balance to" in pressed.output
+
+
 def test_large_slip_is_warned_of(run):
     """An obstacle moves by two cells below a block. Its shape is a height, which need not be the same everywhere."""
     case = block("P pressure top 0.01", 0.1, support="top:xy")
