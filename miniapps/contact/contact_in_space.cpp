@@ -496,6 +496,8 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    }
    SmallDisplacements small(reduction, even);
    Sketch sketch(study, own.scene);
+   // Pressures and openings in the state with the largest pressure.
+   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), away = pressed;
    const Counters &spent = reduction.counters;
    int frames = 0;
    history.march(problem,
@@ -505,6 +507,11 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
                     bolts.note(reached);
                     sketch.note(reached);
                     small.note(reached);
+                    if (reached.p.maxCoeff() > pressed.maxCoeff())
+                    {
+                       pressed = reached.p;
+                       away = reached.w;
+                    }
                     points.note(reached);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // the cost of the frame is added
@@ -515,6 +522,13 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    sketch.report();
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, paraview.c_str())); }
+   const ChordalError chords = warn_of_chords(reduction, pressed, away);
+   // Smaller values are round-off of plane sides.
+   if (chords.at_a_node > 1e-6 && std::isfinite(chords.at_a_node))
+   {
+      study.value("chords_peak_pressure_change_estimate", chords.of_peak);
+      study.value("chords_node_pressure_change_estimate", chords.at_a_node);
+   }
    warn_of_large_displacements(own.scene, small, history.state);
    history.report_state(problem, report.of_state(history.state));
    report.report(history.state, history.report, bolts);

@@ -138,6 +138,7 @@ ChordalError warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p
                             const Eigen::VectorXd &w)
 {
    const ChordalError shares = chordal_error(reduction, p, w);
+   const bool in_space = !reduction.bodies.empty() && reduction.bodies[0].surface.size() > 0;
    const bool known = std::isfinite(shares.at_a_node);
    if (shares.at_a_node <= 0.05) { return shares; }
    // First where nodes carry forces, and beside these, because chords are off their curves only
@@ -171,8 +172,11 @@ ChordalError warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p
                      " of it, and that of a single node by up to ", shares.at_a_node,
                      " of the largest (estimates)")
               : "no node carries a force now, but some may on the curves",
-        ". Take key geometry: smooth, which follows curves that the vertices show, a mesh of a "
-        "higher order (in Gmsh: -order 2), or give the gap by key 'gap'");
+        in_space
+           ? ". Take nodes that match, finer elements, elements of order 2 on both sides, or "
+             "give the gap by key 'gap'"
+           : ". Take key geometry: smooth, which follows curves that the vertices show, a "
+             "mesh of a higher order (in Gmsh: -order 2), or give the gap by key 'gap'");
    return shares;
 }
 

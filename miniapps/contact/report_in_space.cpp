@@ -214,12 +214,21 @@ void ReportInSpace::report_reactions(const ContactState &state, const BoltsRepor
    const VectorXd tied = reduction.tied_forces(state.v, state.w, state.multipliers);
    double worst = 0;
    bool loaded = false; // is there a force on any body?
+   // Smaller forces are round-off of bodies that move or expand without any.
+   std::vector<VectorXd> fields;
+   double small = 0;
+   for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
+   {
+      fields.push_back(
+         reduction.displacement(static_cast<int>(b), state.v, state.w, state.multipliers));
+      small = std::max(small, 1e-12 * own_.scene.bodies[b]->stiffness().MaxNorm() *
+                                 fields[b].cwiseAbs().maxCoeff());
+   }
    for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
    {
       const auto number = static_cast<int>(b);
       const ElasticBody &body = *own_.scene.bodies[b];
-      const VectorXd field =
-         reduction.displacement(number, state.v, state.w, state.multipliers);
+      const VectorXd &field = fields[b];
       mfem::Vector product(body.dofs());
       body.stiffness().Mult(to_mfem(field), product);
       VectorXd rest = view(product);
@@ -278,8 +287,6 @@ void ReportInSpace::report_reactions(const ContactState &state, const BoltsRepor
          study_.row(table, {reduction.bodies[b].name, holding.kind, holding.name, sum[0],
                             sum[1], sum[2]});
       }
-      // Smaller forces are round-off of a body that moves or expands without any.
-      const double small = 1e-12 * body.stiffness().MaxNorm() * field.cwiseAbs().maxCoeff();
       const double imbalance =
          largest > small ? std::max(force.norm(), moment.norm() / arm) / largest : 0;
       loaded = loaded || largest > small;
