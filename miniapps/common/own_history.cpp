@@ -65,7 +65,14 @@ void check_laws_at_start(const ReducedProblem &problem, const ContactState &stat
    const double tiny = 1e-6 * std::max(state.peak_force, state.p.cwiseAbs().maxCoeff());
    const std::string where = "option --load-state: ",
                      must = ": it must be that of the march that saved the state";
-   for (const ContactChain &chain : problem.chains)
+   // Surfaces have no chains.
+   std::vector<ContactChain> chains = problem.chains;
+   if (chains.empty())
+   {
+      chains.emplace_back();
+      chains[0].nodes = n;
+   }
+   for (const ContactChain &chain : chains)
    {
       const std::string at =
          chain.interface.empty() ? "" : " of interface '" + chain.interface + "'";

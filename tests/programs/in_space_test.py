@@ -383,6 +383,16 @@ def test_a_march_goes_on_from_a_state(run):
     assert rest["total_dissipation"] == whole["total_dissipation"]
 
 
+def test_a_state_of_other_gaps_or_friction_is_refused(run):
+    case = {**block("P pressure top 1; Q traction top 0.2 0.1 0"), "history": ["P=0", "P=1", "Q=1"]}
+    run.case({**case, "history": ["P=0", "P=1", "Q=0.8"]}, "--save-state", run.folder / "state")
+    later = {**case, "history": ["P=0", "P=1", "Q=0.8", "Q=1"]}
+    run.case(later, "--load-state", run.folder / "state")
+    lower = with_(later, [0, 0, -0.001], *FLOOR, "obstacle", "plane", "point")
+    assert "the gap has been changed" in run.refused(lower, "--load-state", run.folder / "state")
+    assert "the friction has been changed to 0.05" in run.refused(with_(later, 0.05, *FLOOR, "friction"), "--load-state", run.folder / "state")
+
+
 @pytest.mark.parametrize("elements", ["hexahedra", "tetrahedra"])
 def test_meshes_of_solids(run, elements):
     """MFEM's format and both of Gmsh's give the same answer, with names of groups too."""
