@@ -61,7 +61,8 @@ struct OutputDof
     the contact is in the forces, {q; p} on the rows of {v; w}. */
 struct CraigBampton
 {
-   Eigen::MatrixXd K, M;           ///< symmetric
+   Eigen::MatrixXd K;              ///< stiffness, symmetric
+   Eigen::MatrixXd M;              ///< mass, symmetric
    std::vector<Eigen::Index> rows; ///< of {v; w}, of the first coordinates
    /// Circular frequencies of the modes, of the other coordinates. The first are 0: motions
    /// that nothing resists.
