@@ -16,6 +16,10 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "rest: a test that ./test leaves to ./test --all and ./test --room")
+
+
 @pytest.fixture
 def root():
     """The repository, whose problems, decks and pages tests read."""

@@ -117,6 +117,7 @@ def test_worn_out_parabola(hertz):
     assert (end.slip_range[end.stick] < 1e-8).all() and end.slip_range.max() > 1e-3
 
 
+@pytest.mark.rest
 def test_volume_is_that_of_the_energy(hertz):
     """k/f times the energy lost, at every moment; and the way there ends in what worn_out() finds. No cycle wears so
     much that its own update is implicit: such cycles are all marched."""

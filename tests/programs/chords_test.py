@@ -186,6 +186,7 @@ def test_of_a_polygon_beside_a_curve_are_told(run):
 
 
 @pytest.mark.parametrize("order", (1, 2, 3))
+@pytest.mark.rest
 def test_of_graded_edges_tell_what_they_take(run, order):
     """Rings as meshed whose edges are of random lengths, up to 1:16: what chords are told to change of the largest pressure, and of that
     of a node, is what it is wrong by beside Lamé, to a factor of two."""

@@ -637,6 +637,7 @@ def test_warns_of_a_line_that_is_named_too_short(run):
     assert run.case(case)["warnings"] == []
 
 
+@pytest.mark.rest
 def test_edges_of_a_hertz_contact_have_the_closed_forms(run):
     """On a block that stands for a half-plane."""
     hertz_contact(run, meshed=True)
@@ -777,6 +778,7 @@ def test_equals_the_square_punch(run, obstacle, domain):
 
 
 @pytest.mark.parametrize("name", ["bolted_joint", "bolted_joint_drawing", "pin", "dovetail", "rounded_punch", "fretting_pad", "fretting_rig", "calculix/laps"])
+@pytest.mark.rest
 def test_a_run_fits_on_a_screen(run, name):
     """Forty lines and the warnings by default; --verbose prints more, and the results are the same."""
     short, long = (run("contact", "--case", f"meshes/{name}.json", *more) for more in ([], ["--verbose"]))

@@ -40,6 +40,7 @@ def test_ends_where_derivatives_jump(run):
     assert "return status" not in got.output
 
 
+@pytest.mark.rest
 def test_says_that_it_was_stopped(run):
     """Ctrl-C, long before it would be done."""
     # In the foreground: otherwise timeout also signals its group, a second Ctrl-C, which ends a program at once.
@@ -173,6 +174,7 @@ def test_flat_and_radius_from_several_starts(run):
     near(flat["objective"], got["cases"][0]["peak_before"], 1e-5)
 
 
+@pytest.mark.rest
 def test_counts_from_a_point_of_the_history_on(run):
     """From which point on a history counts is said by its time, and a time between two points is the same as the later one; before
     it begins, all of it."""
@@ -209,6 +211,7 @@ def test_first_start_without_equilibrium(run):
     near_relative(got["cases"][0]["lost_after"], got["objective"], 1e-9)
 
 
+@pytest.mark.rest
 def test_each_line_has_variables_of_its_own(run):
     """Two contacts side by side, each with a line of its own: each has its own zones, flat and crown, which are those that it has
     alone."""

@@ -90,6 +90,7 @@ def test_finite_elements_with_bulk_tension_meet_the_closed_forms(run):
     assert got["judged_edge"] == "trailing"
 
 
+@pytest.mark.rest
 def test_finite_elements_take_bulk_in_the_pad_and_test_records(run):
     # K_T feels the difference of both bulk stresses only.
     both, one = run.line("fretting --pad fe --friction 0.7 --shear-load 50 --bulk 10 --bulk-pad -20"), run.line("fretting --pad fe --friction 0.7 --shear-load 50 --bulk 30")
@@ -186,6 +187,7 @@ def shares_of(numpy, contact):
     return shares
 
 
+@pytest.mark.rest
 def test_critical_planes_under_a_hertz_contact_are_those_of_the_closed_forms(run):
     """Stresses of the closed forms of Hertz, Cattaneo and Mindlin round the cycle, averaged over the depth, by criteria of
     [Findley 1959], [Smith 1970] and [Fatemi 1988]."""
@@ -210,6 +212,7 @@ def mindlin_edge_stress(shear):
 
 
 @pytest.mark.parametrize("bulk", [0, 10])
+@pytest.mark.rest
 def test_the_edge_stress_of_the_solved_contact_is_that_of_the_closed_form(run, bulk):
     """σ_xx at the trailing edge by Hertz, Cattaneo and Mindlin, and with bulk stress by Nowell and Hills, as the pad 'hertz' has it. A
     finer mesh comes closer."""
@@ -242,6 +245,7 @@ def test_the_severest_critical_plane_is_within_the_error_of_the_mesh(run):
         near(row["share"], expected, row["error_estimate"])
 
 
+@pytest.mark.rest
 def test_records_hold_materials_and_pads_of_their_own(run):
     """Tests of several materials, pads and frictions in one file are those of each alone."""
     def correlated(rows, code=0):
@@ -261,6 +265,7 @@ def test_records_hold_materials_and_pads_of_their_own(run):
         assert words in correlated(rows, code=1).output
 
 
+@pytest.mark.rest
 def test_levels_divide_broken_from_lasting_tests(run):
     """Without bulk stress K_T is in proportion to Q, energy to Q² (largest) and Q³ (in all)."""
     def levels(rows, *options):
@@ -304,6 +309,7 @@ def test_thresholds_are_the_sheets(run, friction, ordinate):
     near_relative(got["threshold_y"], ordinate, 1e-6)
 
 
+@pytest.mark.rest
 def test_borderline_designs_are_answered_and_said(run):
     # Nearly sliding: an answer, with a warning.
     assert run.line("fretting --shear-load 279.99 --friction 0.7")["trust"] == "not to be trusted"
@@ -326,6 +332,7 @@ def test_borderline_designs_are_answered_and_said(run):
 
 
 @pytest.mark.parametrize("load", [30, 40])
+@pytest.mark.rest
 def test_edges_that_feel_the_same_are_not_chosen_by_round_off(run, load):
     """Both edges of a contact feel the same where Q goes fully to and fro: the trailing one is judged, whatever the last digits, and
     -Q is the mirror image of Q."""

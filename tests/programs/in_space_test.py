@@ -277,6 +277,7 @@ def two_blocks(run, cells, others):
     return got["peak_pressure"], math.sqrt(4 * area["area"] / math.pi), area["area_error_estimate"] / area["area"]
 
 
+@pytest.mark.rest
 def test_blocks_that_do_not_match_are_hertz(run):
     """Two blocks with other cells on each side: peak pressure and radius are Hertz's, to what halving the cells changes."""
     modulus, radius, force = 210e3 / (1 - 0.3**2) / 2, 50, 3000

@@ -139,6 +139,7 @@ def test_bolts_pull_both_ends_alike(run, part):
     near(got.interface("joint")["normal"], got["bolts"][0]["force"], 1e-9)
 
 
+@pytest.mark.rest
 def test_of_a_plate_over_neighbours_pass_the_patch_test(run):
     """A plate over two blocks whose joint lies within one of its elements: pressed evenly, ν = 0, each block carries what
     stands on it, whichever side has the nodes, tied or not."""
@@ -529,6 +530,7 @@ def read(file):
         return opened.read()
 
 
+@pytest.mark.rest
 def test_of_a_pin_amid_its_hole_take_up_the_clearance(run):
     """A pin that is meshed amid its hole comes to where the shipped one is meshed, and is pressed on there. Its hole is then
     that of a place 0.01 higher, 0.2 % of the radius."""
@@ -708,6 +710,7 @@ def united(one, other):
     return mesh_text(elements + shifted(more), boundary + shifted(edges), vertices + places)
 
 
+@pytest.mark.rest
 def test_shafts_of_two_parts_twist(run):
     """A hollow shaft of two parts that are pressed together and twisted: of one material it stays plane, and its angle is that
     of its parts in series; all of it slips under 2/3 π f p (a³ - b³)."""

@@ -837,6 +837,7 @@ def test_loads_have_sizes(run):
         ("force", 20, [0, -1]), ("moment", 10, None), ("displacement", 0.25, [1, 0])]
 
 
+@pytest.mark.rest
 def test_what_is_at_rest_does_not_depend_on_the_order_of_bodies(run):
     """A plate under a cap is dragged over its base until it slides as a whole. The cap rides along: nothing changes in its contact,
     and its zones stay as they were, in whichever order bodies, interfaces, sides and bolts are named."""

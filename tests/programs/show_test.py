@@ -5,6 +5,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 from programs import ROOT
 
 SHOW = ROOT / "python" / "cattaneo_show"
@@ -44,6 +46,7 @@ def bare_python(run):
     return folder
 
 
+@pytest.mark.rest
 def test_what_is_drawn_later_is_the_same(run):
     """The picture and the page of a kept JSON are those that the run itself left; the JSON is no other with them."""
     kept, names = run.folder / "kept.json", ("now.svg", "now.html", "later.svg", "later.html")
@@ -60,6 +63,7 @@ def test_what_is_drawn_later_is_the_same(run):
     assert sorted(file.name for file in run.folder.iterdir()) == sorted(["kept.json", *names])
 
 
+@pytest.mark.rest
 def test_panels_are_chosen_by_name(run):
     """Without options their names are listed; the chosen ones alone are drawn, and no others are known."""
     kept, picture = run.folder / "kept.json", run.folder / "one.svg"
@@ -151,6 +155,7 @@ def test_without_python_nothing_is_compared(run):
     assert [row["computed"] for row in with_python["references"] if row["quantity"] == "half-width / b Hertz"] == [alone["half_width"]]
 
 
+@pytest.mark.rest
 def test_long_increments_are_in_a_file_beside_the_run(run):
     """The page that is drawn of it later has all of them; without that file the sentence names it."""
     kept, page, later = (run.folder / name for name in ("kept.json", "now.html", "later.html"))

@@ -54,6 +54,7 @@ LAME = FIT * MODULUS / ((OUTER * OUTER + 1) / (OUTER * OUTER - 1) + (1 + INNER *
 
 
 @pytest.mark.parametrize("order", [1, 2, 3, 4])
+@pytest.mark.rest
 def test_of_a_shrink_fit_have_lames_pressure(run, order):
     """Lamé's pressure in a shrink fit, of every order, everywhere closed, with a note; as meshed the pressure is that of polygons,
     and the estimate of it is right to a factor of two. The outer ring has two thirds more edges than the inner one."""

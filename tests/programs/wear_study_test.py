@@ -95,6 +95,7 @@ def test_a_cycle_of_the_worn_out_contact_loses_nothing(run):
     assert got["final_loss"] == 0
 
 
+@pytest.mark.rest
 def test_the_table_of_an_interrupted_run_has_its_last_state(run):
     """Ctrl-C: a cycle that is not whole is none, and the table goes up to the last one."""
     got = run("wear", "--cycles", "1e9", "--depth-error", 0, "--wear", "1e-6", "--nodes", 49, code=2,
