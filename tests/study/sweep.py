@@ -140,29 +140,33 @@ def refused():
     assert "every point of the sweep is refused" in shown and "there is no load 'R'" in shown, shown
 
 
-def of_cycles(number):
-    """Runs of points that are going on."""
-    return subprocess.run(["pgrep", "-f", f"lap_joint.* --?cycles {number}( |$)"], stdout=subprocess.PIPE, check=False).stdout
-
-
 def interrupted(folder):
     """What has been computed stays, what was running says that it was stopped, and no process is left."""
     out = folder / "i.json"
     sweep = subprocess.Popen([PROGRAMS / "lap_joint", "-all-cycles", "-spacing", "0.05", "--sweep",
-                              "cycles=2 3 4 100000:100199:200", "--json", out], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    begun = time.monotonic()
-    while of_cycles("[234]") or not of_cycles("100[01][0-9][0-9]"):
-        assert sweep.poll() is None and time.monotonic() - begun < 60
-        time.sleep(0.1)
-    time.sleep(0.5)
-    sweep.send_signal(signal.SIGINT)
-    assert sweep.wait(60) == 2
-    results = read(out)
-    states = [row["status"] for row in results["sweep"]]
-    assert results["status"] == "stopped" and 3 < len(states) < 203, results
-    assert states[:3] == 3 * ["converged"] and set(states[3:]) == {"stopped"}, states
-    left = of_cycles("100[01][0-9][0-9]")
-    assert not left, left
+                              "cycles=2 3 4 100000:100199:200", "--json", out], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                             start_new_session=True)
+
+    def of_cycles(number):
+        """Runs of points of this sweep that are going on."""
+        return subprocess.run(["pgrep", "-s", str(sweep.pid), "-f", f"lap_joint.* --?cycles {number}( |$)"], stdout=subprocess.PIPE, check=False).stdout
+
+    try:
+        begun = time.monotonic()
+        while of_cycles("[234]") or not of_cycles("100[01][0-9][0-9]"):
+            assert sweep.poll() is None and time.monotonic() - begun < 60
+            time.sleep(0.1)
+        time.sleep(0.5)
+        sweep.send_signal(signal.SIGINT)
+        assert sweep.wait(60) == 2
+        results = read(out)
+        states = [row["status"] for row in results["sweep"]]
+        assert results["status"] == "stopped" and 3 < len(states) < 203, results
+        assert states[:3] == 3 * ["converged"] and set(states[3:]) == {"stopped"}, states
+        left = of_cycles("100[01][0-9][0-9]")
+        assert not left, left
+    finally:  # a test that fails leaves nothing behind either
+        subprocess.run(["pkill", "-KILL", "-s", str(sweep.pid)], check=False)
 
 
 with tempfile.TemporaryDirectory() as name:
