@@ -1,7 +1,9 @@
 """Vibration of joints: masses of other programs, modes, loops in space, and joints for programs of dynamics."""
 
+import os
 import shutil
 import subprocess
+import sys
 
 import cattaneo
 import numpy as np
@@ -232,5 +234,105 @@ def test_programs_of_dynamics_read_what_is_written(tmp_path):
     assert np.array_equal(again, made.M)
     with pytest.raises(cattaneo.InputError, match="preload names 'Q', must be one of P"):
         joints.write_dynamics(tmp_path / "joint.mat", made, column.problem, {"Q": 1})
-    with pytest.raises(cattaneo.InputError, match="must end with .mat, .npz or .txt"):
+    with pytest.raises(cattaneo.InputError, match="must end with .mat, .npz, .txt, .inp or .bdf"):
         joints.write_dynamics(tmp_path / "joint.xls", made, column.problem)
+
+
+def flat_joint():
+    """Two plates of 2 by 1, one on the other at y = 0, that a pressure holds together, with their pair for programs of dynamics."""
+    skfem = pytest.importorskip("skfem")
+    from skfem.helpers import dot
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    bodies = []
+    for y in (0, 1), (-1, 0):
+        mesh = skfem.MeshQuad.init_tensor(np.linspace(0, 2, 5), np.linspace(*y, 3))
+        basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad1()), intorder=3)
+        K = linear_elasticity(*lame_parameters(2.0, 0.3)).assemble(basis)
+        M = skfem.BilinearForm(lambda u, v, w: DENSITY * dot(u, v)).assemble(basis)
+        bodies.append(cattaneo.NodalStiffness(K, mesh.p.T, elements=mesh.t.T, M=M))
+    upper, lower = bodies
+    upper.add_traction("P", upper.places[:, 1] == 1, (0.1, -1))
+    lower.fix(lower.places[:, 1] == -1, "xy")
+    reduction = cattaneo.reduce(*(cattaneo.condense(body, body.contact_line(body.places[:, 1] == 0)) for body in bodies))
+    reduction.problem.friction = 0.5
+    return reduction.problem, joints.VibratingStructure(reduction, bodies).craig_bampton(6)
+
+
+def flat_and_in_space():
+    column = Column(True)
+    return [flat_joint(), (column.problem, column.structure.craig_bampton(5))]
+
+
+def test_abaqus_takes_the_pair_as_matrix_input(tmp_path):
+    """Lines of node, direction, node, direction and value of one triangle; this package reads those in the plane as ABAQUS's own."""
+    for problem, made in flat_and_in_space():
+        joints.write_dynamics(tmp_path / "joint.inp", made, problem, {"P": 3.0})
+        n, N = problem.nodes, len(made.K)
+        # The place of each coordinate, by hand.
+        number = {(row % n + 1, row // n + 1): k for k, row in enumerate(made.rows)}
+        number |= {(n + 1 + k, 1): len(made.rows) + k for k in range(len(made.omega))}
+        for name, matrix in (("STIF1", made.K), ("MASS1", made.M)):
+            read = np.zeros((N, N))
+            for a, i, b, j, value in np.loadtxt(tmp_path / f"joint_{name}.mtx", delimiter=","):
+                row, column = number[int(a), int(i)], number[int(b), int(j)]
+                read[row, column] = read[column, row] = value
+            assert np.array_equal(read, matrix)
+        deck = (tmp_path / "joint.inp").read_text()
+        assert "*MATRIX ASSEMBLE, STIFFNESS=STIFFNESS, MASS=MASS" in deck and "INPUT=joint_STIF1.mtx" in deck
+        forces = np.zeros(N)
+        for line in deck[deck.index("*CLOAD\n") + 7 : deck.index("*END STEP")].splitlines():
+            node, direction, force = line.split(",")
+            forces[number[int(node), int(direction)]] = float(force)
+        assert np.array_equal(forces, 3 * made.F[:, 0])
+    problem, made = flat_joint()
+    joints.write_dynamics(tmp_path / "joint.inp", made, problem)
+    back = cattaneo.read_stiffness(tmp_path / "joint_STIF1.mtx", mass=tmp_path / "joint_MASS1.mtx")
+    assert eigh(back.K.toarray(), back.M.toarray(), eigvals_only=True) == pytest.approx(eigh(made.K, made.M, eigvals_only=True), rel=1e-9)
+    assert np.array_equal(back.places[: problem.nodes], problem.position)
+
+
+def test_nastran_takes_the_pair_as_dmig(tmp_path):
+    """By the columns of Nastran's wide fields, and by pyNastran where it is there."""
+    with_it = dict(os.environ, PYTHONPATH=os.environ.get("CATTANEO_PYNASTRAN", ""))
+    there = not subprocess.run([sys.executable, "-c", "import pyNastran.bdf.bdf"], env=with_it, capture_output=True).returncode
+    for problem, made in flat_and_in_space():
+        joints.write_dynamics(tmp_path / "joint.bdf", made, problem, {"P": 3.0})
+        n, N = problem.nodes, len(made.K)
+        number = {(row % n + 1, row // n + 1): k for k, row in enumerate(made.rows)}
+        number |= {(n + 1 + k, 0): len(made.rows) + k for k in range(len(made.omega))}
+        lines = (tmp_path / "joint.bdf").read_text().splitlines()
+        assert f"SPOINT  {n + 1:8d}THRU    {n + len(made.omega):8d}" in lines
+        read = {"KAAX": np.zeros((N, N)), "MAAX": np.zeros((N, N)), "P2G": np.zeros((N, 1))}
+        for line in lines:
+            fields = [line[8 + 16 * k : 24 + 16 * k] for k in range(4)]
+            if line.startswith("DMIG*"):
+                name = fields[0].strip()
+                column = 0 if name == "P2G" else number[int(fields[1]), int(fields[2])]
+            elif line.startswith("*") and fields[1]:
+                row, value = number[int(fields[0]), int(fields[1])], float(fields[2].replace("D", "E"))
+                read[name][row, column] = value
+                if name != "P2G":
+                    read[name][column, row] = value
+        expected = {"KAAX": made.K, "MAAX": made.M, "P2G": 3 * made.F[:, :1]}
+        for name, matrix in expected.items():
+            assert np.all(np.abs(read[name] - matrix) <= 0.5e-9 * 1.0001 * np.abs(matrix)), name
+        if there:
+            subprocess.run([sys.executable, "-c", READ_DMIG, tmp_path / "joint.bdf", tmp_path / "back.npz"], env=with_it, check=True)
+            with np.load(tmp_path / "back.npz") as back:
+                for name in ("KAAX", "MAAX"):
+                    order = [number[tuple(end)] for end in back[name + "_rows"].tolist()]
+                    assert np.allclose(back[name], expected[name][np.ix_(order, order)], rtol=1e-9, atol=0)
+
+
+READ_DMIG = """
+import sys
+import numpy
+from pyNastran.bdf.bdf import read_bdf
+model = read_bdf(sys.argv[1], xref=False, punch=True, debug=None)
+found = {}
+for name in ("KAAX", "MAAX"):
+    found[name], rows, columns = model.dmig[name].get_matrix(is_sparse=False)
+    found[name + "_rows"] = [rows[k] for k in range(len(rows))]
+numpy.savez(sys.argv[2], **found)
+"""
