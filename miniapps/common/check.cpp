@@ -443,6 +443,11 @@ Panel &draw(Study &study, const Scene &scene, const std::string &name, const std
 void show(Study &study, const Scene &scene)
 {
    require(ranks() == 1, "option --check: there are ", ranks(), " ranks, must be one");
+   if (scene.bodies[0]->formulation() == Formulation::space)
+   {
+      show_in_space(study, scene);
+      return;
+   }
    study.title("Input of the computation");
    list_bodies(study, scene);
    list_lines(study, scene.reduction);

@@ -13,4 +13,8 @@ class Study;
     several ranks. */
 void show(Study &study, const Scene &scene);
 
+/// The same in space, without panels: tables of the bodies with their supports and the rigid
+/// motions that these leave free, of the sides that touch with their gaps, and of the loads.
+void show_in_space(Study &study, const Scene &scene);
+
 } // namespace miniapp

@@ -474,12 +474,12 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (goes_on)
       {
          history.emplace(rows, problem, state);
-         nodes.emplace(frames, problem, state.time);
+         nodes.emplace(frames, problem, state.time, interface_of_node);
       }
       else
       {
          history.emplace(rows, problem);
-         nodes.emplace(frames, problem);
+         nodes.emplace(frames, problem, interface_of_node);
       }
    }
    if (!save_state_.empty() && writes())

@@ -53,6 +53,8 @@ public:
    const cattaneo::BoltedJoint *bolts = nullptr;
    /// For contact on surfaces: shows its maps in the film of the march.
    std::function<void(Film &)> show_maps;
+   /// For contact on surfaces with several interfaces: the name of that of each contact node.
+   std::vector<std::string> interface_of_node;
    /// Loads that take the multiplier of another load: name of the load → name of the other.
    std::map<std::string, std::string> go_with;
    cattaneo::MarchSettings settings;

@@ -14,6 +14,7 @@
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
+#include <cattaneo/reduced/geometry_warnings.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cmath>
@@ -300,13 +301,13 @@ void check_overlaps(const JointCase &joint, const Reduction &reduction)
       for (Index i = 0; i < report.nodes && !face.tied && !face.gap; ++i)
       {
          const double overlap = -reduction.problem.gap[report.first + i],
-                      most = 0.1 * report.spacing[i];
+                      most = face.most_overlap * report.spacing[i];
          const Vector3d at = report.places.row(i);
          require(overlap <= most, face.source.called(face.solid ? "obstacle" : "between"),
                  ": the sides overlap by ", overlap, " at (", at[0], ", ", at[1], ", ", at[2],
-                 "), at most ", most,
-                 " is allowed, a tenth of the distance of nodes: move one of them",
-                 face.solid ? "" : ", or give the key 'gap'");
+                 "), at most ", most, " is allowed (", face.most_overlap,
+                 " of the distance of nodes): move one of them, or allow more for an "
+                 "interference fit by key 'overlap'");
       }
    }
 }
@@ -384,6 +385,8 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
       made.name = face.name;
       made.slave = face.slave;
       made.tied = face.tied;
+      // Overlaps of nodes are checked by check_overlaps().
+      made.most_overlap = face.most_overlap;
       for (const int s : {0, 1})
       {
          const JointCase::Side &side = face.sides[s];
@@ -438,27 +441,38 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
 void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
                       const std::string &paraview)
 {
-   require(!study.options().says("check"),
-           "option --check shows plane bodies: leave it out of a case in space");
    BodiesInSpace own = make_bodies_in_space(joint);
    Reduction &reduction = own.scene.reduction;
    ReducedProblem &problem = reduction.problem;
    require(!problem.patterns.empty(), "there is no load: key 'load' of a body must name one");
-   require(problem.nodes() > 0,
-           "all interfaces are tied, so nothing can open or slip: one at least must not have "
-           "the key tied");
+   // If bodies are only tied, nothing can open or slip: there is no contact node.
+   const bool touches = problem.nodes() > 0;
+   require(touches || !own.bolted,
+           "all interfaces are tied, and bolts have the key 'preload', which is for joints "
+           "that may open or slip: use key 'pretension' instead");
    report_load_sizes(study, problem);
    history.bolts = own.bolted ? &*own.bolted : nullptr;
    history.go_with = joint.go_with;
    history.begin(problem);
-   study.counters += reduction.counters;
-   study.condensed(problem, own.scene.dofs);
-   study.value("condensation_error_estimate", own.accuracy);
-   if (study.verbose())
+   if (reduction.interfaces.size() > 1)
    {
-      study.say(text("   gap %g to %g; relative error of the condensed stiffness: %.2g "
-                     "(estimate)",
-                     problem.gap.minCoeff(), problem.gap.maxCoeff(), own.accuracy));
+      history.interface_of_node.resize(problem.nodes());
+      for (const InterfaceReport &face : reduction.interfaces)
+      {
+         for (Index i = 0; i < face.nodes && !face.tied; ++i)
+         {
+            history.interface_of_node[face.first + i] = face.name;
+         }
+      }
+   }
+   study.condensed(own.scene);
+   study.value("condensation_error_estimate", own.accuracy);
+   if (!touches || study.verbose())
+   {
+      study.say(
+         (touches ? text("   gap %g to %g; ", problem.gap.minCoeff(), problem.gap.maxCoeff())
+                  : std::string("   all interfaces are tied; ")) +
+         text("relative error of the condensed stiffness: %.2g (estimate)", own.accuracy));
    }
    warn_of_accuracy(own.accuracy);
    ReportInSpace report(study, joint, own);
@@ -496,8 +510,10 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    }
    SmallDisplacements small(reduction, even);
    Sketch sketch(study, own.scene);
-   // Pressures and openings in the state with the largest pressure.
-   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), away = pressed;
+   // Pressures and openings in the state with the largest pressure, and the largest pressure of
+   // each node.
+   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), away = pressed,
+                   most = pressed;
    const Counters &spent = reduction.counters;
    int frames = 0;
    history.march(problem,
@@ -506,12 +522,13 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
                     report.note(reached, history.cycle);
                     bolts.note(reached);
                     sketch.note(reached);
-                    small.note(reached);
-                    if (reached.p.maxCoeff() > pressed.maxCoeff())
+                    if (touches) { small.note(reached); }
+                    if (touches && reached.p.maxCoeff() > pressed.maxCoeff())
                     {
                        pressed = reached.p;
                        away = reached.w;
                     }
+                    most = most.cwiseMax(reached.p);
                     points.note(reached);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // the cost of the frame is added
@@ -522,7 +539,9 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    sketch.report();
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, paraview.c_str())); }
-   const ChordalError chords = warn_of_chords(reduction, pressed, away);
+   for (const std::string &said : geometry_warnings(reduction, most)) { warn(said); }
+   const ChordalError chords =
+      touches ? warn_of_chords(reduction, pressed, away) : ChordalError();
    // Smaller values are round-off of plane sides.
    if (chords.at_a_node > 1e-6 && std::isfinite(chords.at_a_node))
    {

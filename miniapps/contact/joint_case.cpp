@@ -639,7 +639,7 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    key.must_be_of({"between", "friction", "strength", "gap", "slave", "tied", "overlap",
                    "pairing", "obstacle", "motion", "guide"});
    const bool in_space = joint.in_space();
-   if (in_space) { key.must_not_have_in_space({"strength", "overlap", "pairing"}); }
+   if (in_space) { key.must_not_have_in_space({"strength", "pairing"}); }
    JointCase::Face made;
    made.name = name;
    made.source = source(key);

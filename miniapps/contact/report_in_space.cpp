@@ -80,6 +80,53 @@ ReportInSpace::Sum ReportInSpace::sum(const InterfaceReport &face,
    return made;
 }
 
+ReportInSpace::Moments ReportInSpace::moments(const InterfaceReport &face,
+                                              const ContactState &state,
+                                              const Vector3d &about) const
+{
+   // The forces of this interface alone.
+   const auto alone = [&face](const VectorXd &all, Index components)
+   {
+      VectorXd made = VectorXd::Zero(all.size());
+      const Index n = all.size() / components;
+      for (Index k = 0; k < components && n > 0; ++k)
+      {
+         made.segment(k * n + face.first, face.nodes) =
+            all.segment(k * n + face.first, face.nodes);
+      }
+      return made;
+   };
+   const VectorXd tied = reduction_.tied_forces(state.v, state.w, state.multipliers),
+                  none_of = VectorXd::Zero(tied.size()),
+                  q = face.tied ? VectorXd(VectorXd::Zero(state.q.size())) : alone(state.q, 2),
+                  p = face.tied ? VectorXd(VectorXd::Zero(state.p.size())) : alone(state.p, 1),
+                  its_tied = face.tied ? alone(tied, 3) : none_of;
+   double size = 0;
+   const auto on_body = [&](int body)
+   {
+      const Eigen::MatrixXd forces = reduction_.contact_forces(body, q, p, its_tied);
+      const ContactSurface &surface = reduction_.bodies[body].surface;
+      Vector3d sum = Vector3d::Zero();
+      for (Index i = 0; i < surface.size(); ++i)
+      {
+         const Vector3d force = forces.row(i), arm = surface.nodes[i].position - about;
+         sum += arm.cross(force);
+         size += arm.norm() * force.norm();
+      }
+      return sum;
+   };
+   Moments made;
+   const int first = face.bodies[face.of_second], second = face.bodies[!face.of_second];
+   Vector3d left = on_body(first);
+   made.on_first = left;
+   // A body that touches itself has the sum of both.
+   if (second >= 0 && second != first) { left += on_body(second); }
+   if (second >= 0) { made.defect = settled(left.norm(), size); }
+   if (second == first) { made.on_first.fill(none); }
+   for (double &x : made.on_first) { x = settled(x, size); }
+   return made;
+}
+
 void ReportInSpace::note(const ContactState &state, int)
 {
    if (state.q.size() == 0) { return; }
@@ -136,6 +183,13 @@ void ReportInSpace::report_interfaces(const ContactState &state, const MarchRepo
                                   {"force_x", "x" + u.of(1, 0), "%.6g"},
                                   {"force_y", "y" + u.of(1, 0), "%.6g"},
                                   {"force_z", "z" + u.of(1, 0), "%.6g"},
+                                  {"moment_x", "moment about x" + u.of(1, 1), "%.4g"},
+                                  {"moment_y", "y" + u.of(1, 1), "%.4g"},
+                                  {"moment_z", "z" + u.of(1, 1), "%.4g"},
+                                  {"moment_defect"},
+                                  {"about_x"},
+                                  {"about_y"},
+                                  {"about_z"},
                                   {"dissipation", "lost a cycle" + u.of(1, 1), "%.4e"},
                                   {"stick", "stick" + u.of(0, 2), "%.4g"},
                                   {"slip", "slip" + u.of(0, 2), "%.4g"},
@@ -147,6 +201,8 @@ void ReportInSpace::report_interfaces(const ContactState &state, const MarchRepo
    for (const InterfaceReport &face : reduction_.interfaces)
    {
       const Sum found = sum(face, state);
+      const Vector3d about = face.places.transpose() * face.weights / face.weights.sum();
+      const Moments turning = moments(face, state, about);
       const bool known = cycle && cycle->whole && !face.tied;
       const double lost =
          known ? cycle->node_dissipation.segment(face.first, face.nodes).sum() : none;
@@ -157,9 +213,26 @@ void ReportInSpace::report_interfaces(const ContactState &state, const MarchRepo
          areas[!closed(one) ? 2 : slips(one) ? 1 : 0] += face.weights[i];
       }
       if (face.tied) { areas.fill(none); }
-      study_.row(table, {face.name, first_body(face), found.normal, found.shear.norm(),
-                         found.force[0], found.force[1], found.force[2], lost, areas[0],
-                         areas[1], areas[2], face.tied, face.nodes});
+      study_.row(table, {face.name,
+                         first_body(face),
+                         found.normal,
+                         found.shear.norm(),
+                         found.force[0],
+                         found.force[1],
+                         found.force[2],
+                         turning.on_first[0],
+                         turning.on_first[1],
+                         turning.on_first[2],
+                         turning.defect,
+                         about[0],
+                         about[1],
+                         about[2],
+                         lost,
+                         areas[0],
+                         areas[1],
+                         areas[2],
+                         face.tied,
+                         face.nodes});
    }
 }
 
@@ -198,12 +271,19 @@ void ReportInSpace::report_reactions(const ContactState &state, const BoltsRepor
       factors[reduction_.problem.pattern(bolt.name)] = shanks[k] / bolt.force;
    }
    const Units &u = study_.units;
-   ResultTable &table = study_.table("reactions", {{"body", "forces on"},
-                                                   {"kind", "by"},
-                                                   {"name", "called"},
-                                                   {"force_x", "x" + u.of(1, 0), "%.6g"},
-                                                   {"force_y", "y" + u.of(1, 0), "%.6g"},
-                                                   {"force_z", "z" + u.of(1, 0), "%.6g"}}),
+   ResultTable &table = study_.table("reactions",
+                                     {{"body", "forces on"},
+                                      {"kind", "by"},
+                                      {"name", "called"},
+                                      {"force_x", "x" + u.of(1, 0), "%.6g"},
+                                      {"force_y", "y" + u.of(1, 0), "%.6g"},
+                                      {"force_z", "z" + u.of(1, 0), "%.6g"},
+                                      {"moment_x", "moment about x" + u.of(1, 1), "%.4g"},
+                                      {"moment_y", "y" + u.of(1, 1), "%.4g"},
+                                      {"moment_z", "z" + u.of(1, 1), "%.4g"},
+                                      {"about_x"},
+                                      {"about_y"},
+                                      {"about_z"}}),
                &balance = study_.table(
                   "balance",
                   {{"body", "body"},
@@ -274,18 +354,28 @@ void ReportInSpace::report_reactions(const ContactState &state, const BoltsRepor
       }
       for (const Holding &holding : own_.holdings[b])
       {
-         Vector3d sum = Vector3d::Zero();
-         double size = 0;
+         // The moment is about the middle of its nodes.
+         Vector3d sum = Vector3d::Zero(), turning = sum, middle = sum;
+         double size = 0, lever = 0;
+         for (const int dof : holding.dofs)
+         {
+            middle += places[dof] / static_cast<double>(holding.dofs.size());
+         }
          for (const int dof : holding.dofs)
          {
             const Vector3d one = rest[dof] * Vector3d::Unit(components[dof]);
+            const Vector3d arm = places[dof] - middle;
             sum += one;
+            turning += arm.cross(one);
             size += one.norm();
+            lever += arm.norm() * one.norm();
             add(places[dof], one);
          }
          for (double &x : sum) { x = settled(x, size); }
+         for (double &x : turning) { x = settled(x, lever); }
          study_.row(table, {reduction.bodies[b].name, holding.kind, holding.name, sum[0],
-                            sum[1], sum[2]});
+                            sum[1], sum[2], turning[0], turning[1], turning[2], middle[0],
+                            middle[1], middle[2]});
       }
       const double imbalance =
          largest > small ? std::max(force.norm(), moment.norm() / arm) / largest : 0;

@@ -42,6 +42,16 @@ private:
       Eigen::Vector3d force{0, 0, 0}, shear{0, 0, 0};
    };
    Sum sum(const cattaneo::InterfaceReport &face, const cattaneo::ContactState &state) const;
+   /// Moments of an interface about a place.
+   struct Moments
+   {
+      Eigen::Vector3d on_first{0, 0, 0};
+      /// Size of the sum of those on both bodies: forces that do not act at one place leave it.
+      /// NaN on an obstacle.
+      double defect = none;
+   };
+   Moments moments(const cattaneo::InterfaceReport &face, const cattaneo::ContactState &state,
+                   const Eigen::Vector3d &about) const;
    /// Tangential vectors (n × 3) of the nodes of an interface, of two components each.
    Eigen::MatrixX3d tangential(const cattaneo::InterfaceReport &face,
                                const Eigen::VectorXd &components) const;

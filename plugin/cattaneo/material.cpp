@@ -27,7 +27,7 @@ void Material::validate() const
    const double limit = strain ? 0.5 : 1.0;
    require(poisson > -1 && poisson < limit, "material: Poisson's ratio is ", poisson,
            ", must be above -1 and below ", limit,
-           strain ? " in plane strain" : " in plane stress");
+           strain ? " in plane strain and in space" : " in plane stress");
    require_positive("material: Young's modulus", young);
 }
 

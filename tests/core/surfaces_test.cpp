@@ -856,6 +856,22 @@ TEST(Surfaces, ObstaclesAreAsFarAsClosedFormsSay)
       },
       "does not face the obstacle");
    expect_input_error([&] { gaps_to_sphere(surface, {0, 0, 0}, 0); }, "its radius is 0");
+   // Normals of nodes that pass a small ball count as turned towards it by 5 degrees.
+   const VectorXd small = gaps_to_sphere(surface, {0, -0.8, 0}, 0.8);
+   for (Eigen::Index i = 0; i < surface.size(); ++i)
+   {
+      const Vector3d &x = surface.nodes[i].position;
+      const double beside = std::hypot(x[0], x[2]);
+      const double gap = beside < 0.8
+                            ? 0.1 + 0.8 - std::sqrt(0.64 - beside * beside)
+                            : (std::hypot(beside, 0.9) - 0.8) / std::sin(std::acos(-1.0) / 36);
+      EXPECT_NEAR(small[i], gap, 1e-12);
+   }
+   expect_input_error(
+      [&] {
+         gaps_to_sphere(surface, {5, -1, 0}, 1);
+      },
+      "no node of the side faces the sphere");
    // Pressed on the plane, the block bears its load.
    NodalStiffness pressed = body;
    pressed.add_surface_traction("P", pressed.nodes_of("TOP"), Vector3d(0, -1, 0));
@@ -1413,7 +1429,12 @@ TEST(Surfaces, CylindersAndHeightsAreAsFarAsClosedFormsSay)
       "does not face the obstacle");
    expect_input_error([&] { gaps_to_cylinder(surface, {0, 0, 0}, {0, 0, 0}, 1); }, "no axis");
    expect_input_error([&] { gaps_to_height(below, [](double, double) { return HUGE_VAL; }); },
-                      "does not face the obstacle");
+                      "is not a finite number");
+   expect_input_error(
+      [&] {
+         gaps_to_cylinder(surface, {5, -1, 0}, {0, 0, 1}, 1);
+      },
+      "no node of the side faces the cylinder");
 }
 
 TEST(Surfaces, DecksOfAbaqusHaveSolidsAndTheirFaces)

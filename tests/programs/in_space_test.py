@@ -490,6 +490,179 @@ def test_stacks_ties_and_moving_planes(run):
     near(foot["force_z"], 0.01, 1e-12)
 
 
+def test_ties_alone_are_linear(run):
+    """Two blocks of ν = 0 that are only tied, with other cells each: a column under a pressure, whose force moves its end by P H/E."""
+    def one(low, cells, **keys):
+        return {"block": brick(([0, 1], cells), ([0, 1], cells), ([low, low + 1], 2)), "young": 1, "poisson": 0, **keys}
+    got = run.case({"analysis": "space", "order": 1, "history": ["P=0", "P=1"], "points": {"end": {"body": "top", "at": [0.3, 0.6, 2]}},
+                    "bodies": {"top": one(1, 2, load="P pressure top 0.01"), "foot": one(0, 3, support="bottom:xyz")},
+                    "interfaces": {"glue": {"between": ["top:bottom", "foot:top"], "tied": True}}}, "--csv", run.folder / "tied")
+    assert got["status"] == "converged" and "all interfaces are tied" in got.output
+    near(got.interface("glue")["force_z"], 0.01, 1e-12)
+    near(got["points"][0]["uz"], -0.02, 1e-12)
+    near(got["points"][0]["zz"], -0.01, 1e-12)
+    near_all([row["imbalance"] for row in got["balance"]], 0, 1e-10)
+
+
+def on_two(seam, cells, order, slave=None, reach=0, elements="hexahedra", poisson=0.0):
+    """A block of 10 × 6 on two blocks that meet at x = `seam`, pressed by 10."""
+    def one(x, z, n, **keys):
+        return {"block": brick((x, n), ([0, 6], 2), (z, 1), elements), "young": 1000, "poisson": poisson, **keys}
+    made = {"analysis": "space", "order": order, "history": ["P=0", "P=1"],
+            "bodies": {"up": one([0, 10], [0, 4], cells[0], load="P traction top 0 0 -10", support="left:x front:y"),
+                       "l1": one([-reach, seam], [-3, 0], cells[1], support="bottom:xyz left:x front:y"),
+                       "l2": one([seam, 10 + reach], [-3, 0], cells[2], support="bottom:xyz front:y")},
+            "interfaces": {name: {"between": ["up:bottom", low + ":top"], "friction": 0.2} for name, low in (("a", "l1"), ("b", "l2"))}}
+    for face in made["interfaces"].values():
+        if slave:
+            face["slave"] = slave
+    return made
+
+
+@pytest.mark.parametrize("order, elements", [(1, "hexahedra"), (2, "hexahedra"), (2, "tetrahedra"), (2, "wedges")])
+def test_a_seam_within_faces_passes_a_pressure(run, order, elements):
+    """Two interfaces meet within faces of the slave: under a pressure of 10 each of them bears 10 times its own area."""
+    for seam, cells in ((4.3, (1, 2, 3)), (5, (1, 1, 2)), (3.1, (2, 3, 2)), (6.9, (3, 1, 2))):
+        got = run.case(on_two(seam, cells, order, "first", elements=elements), "--csv", run.folder / "seam")
+        near_relative(got.interface("a")["normal"], 60 * seam, 1e-9)
+        near_relative(got.interface("b")["normal"], 60 * (10 - seam), 1e-9)
+        table = run.columns("seam_nodes.csv")
+        near_all([p for p, time in zip(table["p"], table["time"], strict=True) if time == 1], 10, 1e-8)
+
+
+def test_a_seam_within_faces_takes_the_other_side(run):
+    """The blocks below reach further than the one above, so that neither side lies within the other: the default puts the nodes of one
+    interface at least on the side whose faces no seam cuts, and forces are those of the side that none cuts in both, to 1 %."""
+    def case(slave=None):
+        made = on_two(4.3, (1, 3, 3), 2, slave, reach=2)
+        made["bodies"]["up"].pop("support")
+        for low in ("l1", "l2"):
+            made["bodies"][low]["support"] = "bottom:xyz"
+        return made
+    default, below = run.case(case()), run.case(case("second"))
+    for name in "ab":
+        near_relative(default.interface(name)["normal"], below.interface(name)["normal"], 0.01)
+
+
+def test_a_tie_over_a_distance_is_warned_of(run):
+    """Blocks are tied over a gap: a shear of 8 over a distance of 0.5 leaves a moment of 4, which is said. Tied sides must not overlap by
+    more than sides that touch."""
+    def one(x, low, cells, **keys):
+        return {"block": brick(([0, x], cells), ([0, 8], cells), ([low, low + 4], 1)), "young": 1000, "poisson": 0.3, **keys}
+    def case(away, cells=3):
+        return {"analysis": "space", "order": 1, "history": ["P=0", "P=1"],
+                "bodies": {"u": one(10, away, 2, load="P traction top 0.1 0 -1"), "l": one(10, -4, cells, support="bottom:xyz"),
+                           "s": one(10, away + 4, 2, support="top:xyz")},
+                "interfaces": {"t": {"between": ["u:bottom", "l:top"], "tied": True},
+                               "c": {"between": ["s:bottom", "u:top"], "friction": 0.1}}}
+    for cells in (3, 2):
+        got = run.case(case(0.5, cells))
+        assert "interface 't': its sides are tied although they are apart by up to 0.5, at" in got.warned(), got.warned()
+        row = got.interface("t")
+        near_relative(row["moment_defect"], 0.5 * abs(row["tangential"]), 1e-9)
+        assert row["tangential"] > 1
+        got = run.case(case(0, cells))
+        assert "tied although" not in got.warned()
+        near(got.interface("t")["moment_defect"], 0, 1e-9)
+    assert "the sides overlap by 1 at" in run.refused(case(-1)) and "sides that are tied must touch" in run.refused(case(-1))
+
+
+def test_moments_of_interfaces_and_supports(run):
+    """A block that is pushed at its top stands on another one: N acts where statics say, beside the middle, so that the moment about it is
+    the shear times the height. The support below takes it with the height of the lower block, and each row says its place."""
+    def one(low, high, cells, **keys):
+        return {"block": brick(([0, 4], cells), ([0, 2], 2), ([low, high], 2)), "young": 1000, "poisson": 0.3, **keys}
+    for cells in (4, 3):
+        got = run.case({"analysis": "space", "order": 1, "history": ["P=0", "P=1"],
+                        "bodies": {"u": one(0, 1, 4, load="P traction top 0.2 0 -1"), "l": one(-3, 0, cells, support="bottom:xyz")},
+                        "interfaces": {"f": {"between": ["u:bottom", "l:top"], "friction": 0.5}}})
+        row = got.interface("f")
+        near(row["normal"], 8, 1e-10)
+        near(row["force_x"], -1.6, 1e-10)
+        # On the upper block the load has the moment 1.6 about y, and the contact the opposite one.
+        near_all([row["moment_x"], row["moment_z"], row["moment_y"] + 1.6], 0, 1e-9)
+        near_all([row["about_x"] - 2, row["about_y"] - 1, row["about_z"], row["moment_defect"]], 0, 1e-9)
+        support = next(r for r in got["reactions"] if r["body"] == "l")
+        near_all([support["force_x"] + 1.6, support["force_z"] - 8, support["moment_y"] + 1.6 * 4, support["moment_x"], support["moment_z"]], 0, 1e-9)
+        near_all([support["about_x"] - 2, support["about_y"] - 1, support["about_z"] + 3], 0, 1e-9)
+
+
+def test_nodes_name_their_interface_and_area(run):
+    """Two feet on a plane: p times area of the nodes of an interface is its force."""
+    case = block("P traction top 0.1 0 -1")
+    floor = case["interfaces"].pop("floor")
+    for name, part in (("left", "bottom[0<x<0.5]"), ("right", "bottom[1.5<x<2]")):
+        case["interfaces"][name] = {**floor, "between": "block:" + part}
+    got = run.case(case, "--csv", run.folder / "feet")
+    nodes = run.columns("feet_nodes.csv")
+    forces = []
+    for name in ("left", "right"):
+        rows = [k for k, one in enumerate(nodes["interface"]) if one == name and nodes["time"][k] == nodes["time"][-1]]
+        assert len(rows) == got.interface(name)["nodes"] > 0
+        forces.append(sum(nodes["p"][k] * nodes["area"][k] for k in rows))
+        near(forces[-1], got.interface(name)["normal"], 1e-12)
+    near(sum(forces), 2, 1e-12)
+    assert forces[1] > forces[0] + 0.01
+
+
+def test_an_interference_is_allowed_by_its_key(run):
+    """A block overlaps a plane by 0.1 of its edge of 0.5 and more: ν = 0, so that the pressure is E times overlap over height."""
+    case = block("P pressure top 1e-9", 0, poisson=0, support="top:xyz")
+    case["interfaces"]["floor"]["obstacle"]["plane"]["point"] = [0, 0, 0.1]
+    error = run.refused(case)
+    assert "overlap by 0.1" in error and "(0.1 of the distance of nodes)" in error and "key 'overlap'" in error, error
+    case["interfaces"]["floor"]["overlap"] = 0.3
+    near(run.case(case)["peak_pressure"], 0.1, 1e-12)
+
+
+def test_a_ball_may_be_smaller_than_the_side(run):
+    """A ball of radius 3 on a block of 10 × 10: nodes beside it are open, and its force is carried. A rectangle of the side alone, by
+    intervals along two axes, has the same pressures."""
+    case = {"analysis": "space", "order": 1, "history": ["P=0", "P=1"],
+            "bodies": {"b": {"block": brick(([-5, 5], 10), ([-5, 5], 10), ([0, 4], 3)), "young": 1000, "poisson": 0.3, "support": "top:xyz"}},
+            "interfaces": {"f": {"between": "b:bottom", "friction": 0, "obstacle": {"sphere": {"centre": [0, 0, -3], "radius": 3}},
+                                 "guide": {"x": "held", "y": "held", "z": {"force": "P", "value": 30}}}}}
+    whole = run.case(case)
+    near_relative(whole.interface("f")["normal"], 30, 1e-10)
+    assert whole.interface("f")["separation"] > 90
+    case["interfaces"]["f"]["between"] = "b:bottom[-2<x<2,-1<y<2]"
+    part = run.case(case)
+    near_relative(part["peak_pressure"], whole["peak_pressure"], 1e-9)
+    areas = part.interface("f")
+    near(areas["stick"] + areas["slip"] + areas["separation"], 12, 1e-9)
+    case["bodies"]["b"].update(load="Q pressure bottom[2<x<4,-1<y<2] 1", support="top:xyz bottom[-5<x<-4,0<y<5]:z")
+    loads = run.case({**case, "history": ["P=0", "P=1", "Q=1"]})["load_sizes"]
+    near_relative(next(row for row in loads if row["load"] == "Q")["size"], 6, 1e-9)
+    case["interfaces"]["f"]["obstacle"]["sphere"]["centre"] = [20, 0, -3]
+    assert "no node of the side faces the sphere" in run.refused(case)
+
+
+def test_check_shows_the_input(run):
+    """--check lists bodies, sides and loads of a case in space, and computes nothing."""
+    case = on_two(4.3, (2, 2, 3), 1)
+    case["units"] = {"length": "mm", "force": "N"}
+    del case["bodies"]["up"]["support"]
+    got = run.case(case, "--check")
+    assert got["status"] == "checked" and "interfaces" not in got.results
+    up, low, _ = got["bodies"]
+    assert (up["elements"], up["dofs"], up["free_motions"], up["held_x"]) == (4, 54, 6, 0)
+    assert (low["free_motions"], low["held_z"], low["z_from"], low["x_to"]) == (0, 9, -3, 4.3)
+    a, b = got["sides"]
+    assert a["meet"] == b["meet"] == "the mortar" and {a["nodes_on"], a["opposite"]} == {"up", "l1"}
+    near_all([a["area"] - 25.8, b["area"] - 34.2, a["least_gap"], b["most_gap"]], 0, 1e-10)
+    load = got["loads"][0]
+    near_all([load["x"], load["y"], load["z"] + 600, load["moment_x"] + 1800, load["moment_y"] - 3000, load["moment_z"]], 0, 1e-9)
+    assert "gap from [mm]" in got.output and "[N]" in got.output
+
+
+def test_a_body_that_tips_is_not_said_to_be_pulled(run):
+    """The load presses, but its resultant passes beside the foot on which the block stands."""
+    case = block("P traction top[1.5<x<2] 0 0 -1")
+    case["interfaces"]["floor"]["between"] = "block:bottom[0<x<1]"
+    got = run.case(case, code=2)
+    assert "load 'P' presses, but the bodies do not come to rest" in got["message"] and "tips" in got["message"], got["message"]
+
+
 def test_a_balance_without_forces_is_none(run):
     """A block that expands freely on another one has forces of round-off only, which are not said to be out of balance."""
     def one(low, high, half, **keys):
@@ -520,12 +693,18 @@ def test_chords_of_a_press_fit_are_warned_of(run):
     case = {"analysis": "space", "order": 1, "history": ["P=0", "P=1"],
             "bodies": {"shaft": {"mesh": ring("shaft.mesh", 3, 5, 8), "young": 1000, "poisson": 0.3, "support": held, "load": "P pressure 1 1e-6"},
                        "hub": {"mesh": ring("hub.mesh", 4.99, 8, 6), "young": 1000, "poisson": 0.3, "support": held}},
-            "interfaces": {"fit": {"between": ["shaft:2", "hub:1"], "slave": "first"}}}
+            "interfaces": {"fit": {"between": ["shaft:2", "hub:1"], "slave": "first", "overlap": 0.3}}}
     said = run.case(case)
     assert "its elements are chords of curves" in said.warned() and "nodes that match" in said.warned(), said.warned()
     assert said["chords_node_pressure_change_estimate"] > 0.05
-    case["bodies"]["hub"]["mesh"] = ring("hub.mesh", 4.99, 8, 8)
-    assert "chords" not in run.case(case).warned()
+    # Elements of order 2 on a mesh with straight edges have chords of the same height.
+    case["order"] = 2
+    case["bodies"]["hub"]["mesh"] = ring("hub.mesh", 4.99, 8, 7)
+    assert "its elements are chords of curves" in run.case(case).warned()
+    for order in (1, 2):
+        case["order"] = order
+        case["bodies"]["hub"]["mesh"] = ring("hub.mesh", 4.99, 8, 8)
+        assert "chords" not in run.case(case).warned()
 
 
 def test_large_slip_is_warned_of(run):
@@ -574,6 +753,7 @@ BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
     ("cubes", (*BODY, "block", "elements"), ["cubes", "wedges"]),
     ("lid:xyz", (*BODY, "support"), ["lid", "bottom"]),
     ("top:xt", (*BODY, "support"), ["xt", "x, y and z"]),
+    ("bottom", (*BODY, "support"), ["@x,y,z:components"]),
     ("P traction top 1 0", (*BODY, "load"), ["has 5 words", "tx ty tz"]),
     ("P displacement-r top 1", (*BODY, "load"), ["displacement-r", "displacement-z"]),
     ("P pressure top[0<x<0.7] 1", (*BODY, "load"), ["cuts a face", "must end where faces end"]),
@@ -581,6 +761,9 @@ BODY, FLOOR = ("bodies", "block"), ("interfaces", "floor")
     ({"cylinder": {"point": [0, 0, -1], "axis": [0, 0, 0], "radius": 1}}, (*FLOOR, "obstacle"), ["cylinder.axis", "must have a length"]),
     ({"cylinder": {"point": [0, 0, -1], "axis": [0, 1, 0], "radius": 0}}, (*FLOOR, "obstacle"), ["cylinder.radius", "must be positive"]),
     ({"height": "x+z"}, (*FLOOR, "obstacle"), ["obstacle.height", "z"]),
+    ({"height": "sqrt(1-x)"}, (*FLOOR, "obstacle"), ["obstacle", "height", "not a finite number"]),
+    (0.5, (*BODY, "poisson"), ["below 0.5 in plane strain and in space"]),
+    ("P pressure top[0<x<1,0<t<1] 1", (*BODY, "load"), ["top[0<x<1,0<t<1]", "interval"]),
     ({"sphere": {"centre": [0, 0, -1], "radius": 0}}, (*FLOOR, "obstacle"), ["radius", "must be positive"]),
     ({"plane": {"point": [0, 0, 0.5], "normal": [0, 0, 1]}}, (*FLOOR, "obstacle"), ["overlap by 0.5", "obstacle"]),
     ([[1, 0.3]], (*FLOOR, "strength"), ["strength", "not for bodies in space"]),
@@ -610,7 +793,6 @@ def test_mistakes_are_named(run, value, path, words):
 
 def test_more_mistakes(run):
     assert "no obstacle" in run.refused(without(block(), *FLOOR, "obstacle"))
-    assert "--check" in run.refused(block(), "--check")
     nodes, solids, faces = solid((1, 1, 1), (1, 1, 1), "hexahedra")
     whole = gmsh_text(nodes, solids, faces, "2.2")
     for name, text, words in (

@@ -383,11 +383,13 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
       }
       for (int node : dofs)
       {
-         const double coordinate = coordinates_(part.axis, node);
-         if (coordinate >= part.lo - slack && coordinate <= part.hi + slack)
+         bool within = true;
+         for (const BoundaryPart::Interval &one : part.intervals())
          {
-            nodes.push_back(node);
+            const double coordinate = coordinates_(one.axis, node);
+            within = within && coordinate >= one.lo - slack && coordinate <= one.hi + slack;
          }
+         if (within) { nodes.push_back(node); }
       }
    }
 #ifdef MFEM_USE_MPI

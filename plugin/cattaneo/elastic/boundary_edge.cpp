@@ -112,9 +112,10 @@ std::string describe(const BoundaryPart &part)
    text << "boundary part with attribute" << (attributes.size() > 1 ? "s " : " ")
         << listed(attributes);
    const char *names[] = {"x", "y", "z"};
-   if (std::isfinite(part.lo) || std::isfinite(part.hi))
+   for (const BoundaryPart::Interval &one : part.intervals())
    {
-      text << " and " << part.lo << " <= " << names[part.axis] << " <= " << part.hi;
+      if (!std::isfinite(one.lo) && !std::isfinite(one.hi)) { continue; }
+      text << " and " << one.lo << " <= " << names[one.axis] << " <= " << one.hi;
    }
    return text.str();
 }
@@ -123,10 +124,15 @@ std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &p
                                    const std::string &where)
 {
    const bool space = mesh.Dimension() == 3;
-   require(part.axis >= 0 && part.axis < mesh.Dimension(), where, ": axis of the interval is ",
-           part.axis, ", must be ", space ? "0 (x), 1 (y) or 2 (z)" : "0 (x) or 1 (y)");
-   require(part.lo <= part.hi, where, ": interval from ", part.lo, " to ", part.hi,
-           ", must not be empty");
+   for (const BoundaryPart::Interval &one : part.intervals())
+   {
+      require(one.axis >= 0 && one.axis < mesh.Dimension(), where, ": axis of the interval is ",
+              one.axis, ", must be ", space ? "0 (x), 1 (y) or 2 (z)" : "0 (x) or 1 (y)");
+      require(one.lo <= one.hi, where, ": interval from ", one.lo, " to ", one.hi,
+              ", must not be empty");
+   }
+   require(space || part.also.empty(), where, ": a part of a plane body has ",
+           part.also.size() + 1, " intervals, must have one");
    require(!part.attributes.empty(), where,
            ": no boundary attribute is named, must be at least one");
    std::vector<std::string> known;

@@ -85,17 +85,24 @@ const mfem::IntegrationRule &BoundaryFace::rule(int order) const
 
 bool BoundaryFace::within(const BoundaryPart &part, const std::string &where)
 {
-   const double slack = interval_tolerance * size_, low = low_[part.axis],
-                high = high_[part.axis];
-   if (high <= part.lo + slack || low >= part.hi - slack)
+   const double slack = interval_tolerance * size_;
+   for (const BoundaryPart::Interval &one : part.intervals())
    {
+      const double low = low_[one.axis], high = high_[one.axis];
       // A face across the interval's end at one value of the coordinate lies on its end.
-      return high - low <= slack && high >= part.lo - slack && low <= part.hi + slack;
+      const bool at_end =
+         high - low <= slack && high >= one.lo - slack && low <= one.hi + slack;
+      const bool beside = high <= one.lo + slack || low >= one.hi - slack;
+      if (beside && !at_end) { return false; }
    }
    const char *names[] = {"x", "y", "z"};
-   require(low >= part.lo - slack && high <= part.hi + slack, where, ": the ", describe(part),
-           " cuts a face, which reaches from ", names[part.axis], " = ", low, " to ", high,
-           ": in space an interval must end where faces end");
+   for (const BoundaryPart::Interval &one : part.intervals())
+   {
+      const double low = low_[one.axis], high = high_[one.axis];
+      require(low >= one.lo - slack && high <= one.hi + slack, where, ": the ", describe(part),
+              " cuts a face, which reaches from ", names[one.axis], " = ", low, " to ", high,
+              ": in space an interval must end where faces end");
+   }
    return true;
 }
 

@@ -19,8 +19,24 @@ struct BoundaryPart
    double lo = -std::numeric_limits<double>::infinity(); ///< lower end of the interval, in the
                                                          ///< mesh's units
    double hi = std::numeric_limits<double>::infinity();  ///< upper end
+   /// An interval of a coordinate: 0 = x, 1 = y, 2 = z.
+   struct Interval
+   {
+      int axis; ///< coordinate
+      double lo, hi;
+   };
+   /// In space: further intervals, in all of which the piece lies.
+   std::vector<Interval> also = {};
    /// Number of entries of the marker from which it was made; 0: without a marker
    int marked = 0;
+
+   /// All of its intervals.
+   std::vector<Interval> intervals() const
+   {
+      std::vector<Interval> all{{axis, lo, hi}};
+      all.insert(all.end(), also.begin(), also.end());
+      return all;
+   }
 
    /// All of one attribute.
    BoundaryPart(int attribute) : attributes{attribute} {}

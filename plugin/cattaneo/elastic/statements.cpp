@@ -131,14 +131,23 @@ BoundaryPart boundary_part(const std::string &called, const std::string &text,
    require(!attributes.empty(), called, ": '", text, form);
    if (bracket == text.size()) { return attributes; }
    require(text.back() == ']', called, ": '", text, form);
-   const std::vector<std::string> bounds =
-      split(text.substr(bracket + 1, text.size() - bracket - 2), "<");
+   // Several intervals are separated by commas: [-1<x<1,0<y<2].
    const std::vector<std::string> axes = {"x", "y", "z"};
-   const auto axis =
-      bounds.size() == 3 ? std::find(axes.begin(), axes.end(), bounds[1]) : axes.end();
-   require(axis != axes.end(), called, ": '", text, form);
-   return {attributes, static_cast<int>(axis - axes.begin()), number(called, bounds[0]),
-           number(called, bounds[2])};
+   std::vector<BoundaryPart::Interval> intervals;
+   for (const std::string &one :
+        split(text.substr(bracket + 1, text.size() - bracket - 2), ","))
+   {
+      const std::vector<std::string> bounds = split(one, "<");
+      const auto axis =
+         bounds.size() == 3 ? std::find(axes.begin(), axes.end(), bounds[1]) : axes.end();
+      require(axis != axes.end(), called, ": '", text, form);
+      intervals.push_back({static_cast<int>(axis - axes.begin()), number(called, bounds[0]),
+                           number(called, bounds[2])});
+   }
+   require(!intervals.empty(), called, ": '", text, form);
+   BoundaryPart made(attributes, intervals[0].axis, intervals[0].lo, intervals[0].hi);
+   made.also.assign(intervals.begin() + 1, intervals.end());
+   return made;
 }
 
 ScalarField scalar_field(const std::string &called, const std::string &text,
@@ -162,9 +171,10 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
    {
       const std::string where = called + " '" + statement + "'";
       const std::size_t colon = statement.find(':');
-      require(
-         colon != std::string::npos, where,
-         ": must be attributes:components such as 1:xy, or @x,y:components for the node there");
+      require(colon != std::string::npos, where,
+              ": must be attributes:components such as 1:xy, or @x,y",
+              body.formulation() == Formulation::space ? ",z" : "",
+              ":components for the node there");
       const std::string place = statement.substr(0, colon);
       const std::vector<int> fixed =
          components(where, statement.substr(colon + 1), body.formulation());

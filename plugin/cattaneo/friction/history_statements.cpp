@@ -90,6 +90,13 @@ std::string nothing_presses(const ReducedProblem &problem, const LoadHistory &hi
              " too little for the shear that comes at the same time: the bodies must be "
              "pressed more, or have more friction";
    }
+   if (later.empty() && !now.empty())
+   {
+      return "load " + listed(now) + (now.size() == 1 ? " presses" : " press") +
+             ", but the bodies do not come to rest on each other: a body tips if the resultant "
+             "of its loads passes beside its contact, and nothing stops it if it is sheared "
+             "before a gap closes. Support it against that, press it first, or close the gap";
+   }
    return later.empty() ? "no load presses the bodies together, and no other load comes later: "
                           "does a load have the "
                           "wrong sign?"

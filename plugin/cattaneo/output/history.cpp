@@ -146,18 +146,26 @@ bool in_space(const ReducedProblem &problem)
    return problem.arc_length.size() == 0 && problem.position.cols() == 3;
 }
 
-std::string node_header(const ReducedProblem &problem)
+std::string node_header(const ReducedProblem &problem,
+                        const std::vector<std::string> &interface_of)
 {
+   require(interface_of.empty() ||
+              (interface_of.size() == std::size_t(problem.nodes()) && interfaces(problem) == 0),
+           "node table: names of interfaces for ", interface_of.size(), " nodes, must be for ",
+           problem.nodes(), " nodes of surfaces");
    require((in_space(problem) || problem.arc_length.size() == problem.nodes()) &&
               problem.position.rows() == problem.nodes() &&
               problem.weights.size() == problem.nodes(),
            "node table: the reduced problem must have arc lengths, positions and weights");
-   return std::string("time,node,") + (interfaces(problem) > 1 ? "interface," : "") +
+   const bool several = interfaces(problem) > 1 || !interface_of.empty();
+   return std::string("time,node,") + (several ? "interface," : "") +
           (in_space(problem) ? "x,y,z" : "arc_length,x,y") + ",state,p," +
-          (has_disc(problem) ? "q1,q2,slip1,slip2" : "q,slip") + ",opening";
+          (has_disc(problem) ? "q1,q2,slip1,slip2" : "q,slip") + ",opening" +
+          (in_space(problem) ? ",area" : "");
 }
 
-std::string node_rows(const ReducedProblem &problem, const ContactState &state)
+std::string node_rows(const ReducedProblem &problem, const ContactState &state,
+                      const std::vector<std::string> &interface_of)
 {
    state.validate(problem);
    const Eigen::Index n = problem.nodes();
@@ -183,32 +191,39 @@ std::string node_rows(const ReducedProblem &problem, const ContactState &state)
          ++chain;
       }
       if (several) { out << csv_field(problem.chains[chain].interface) << ','; }
+      if (!interface_of.empty()) { out << csv_field(interface_of[i]) << ','; }
       if (!in_space(problem)) { out << problem.arc_length[i] << ','; }
       out << problem.position(i, 0) << ',' << problem.position(i, 1) << ',';
       if (in_space(problem)) { out << problem.position(i, 2) << ','; }
       out << name(settled[i]) << ',' << p[i];
       for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << q(i, k); }
       for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << slip(i, k); }
-      out << ',' << state.w[i] + problem.gap[i] << '\n';
+      out << ',' << state.w[i] + problem.gap[i];
+      if (in_space(problem)) { out << ',' << problem.weights[i]; }
+      out << '\n';
    }
    return out.str();
 }
 
 } // namespace
 
-NodeWriter::NodeWriter(const std::string &file, const ReducedProblem &problem)
-   : problem_(problem), file_(file, node_header(problem))
+NodeWriter::NodeWriter(const std::string &file, const ReducedProblem &problem,
+                       std::vector<std::string> interface_of)
+   : problem_(problem), interface_of_(std::move(interface_of)),
+     file_(file, node_header(problem, interface_of_))
 {
 }
 
-NodeWriter::NodeWriter(const std::string &file, const ReducedProblem &problem, double time)
-   : problem_(problem), file_(file, node_header(problem), time)
+NodeWriter::NodeWriter(const std::string &file, const ReducedProblem &problem, double time,
+                       std::vector<std::string> interface_of)
+   : problem_(problem), interface_of_(std::move(interface_of)),
+     file_(file, node_header(problem, interface_of_), time)
 {
 }
 
 void NodeWriter::add(const ContactState &state)
 {
-   file_.add(node_rows(problem_, state));
+   file_.add(node_rows(problem_, state, interface_of_));
 }
 
 StateSaver::StateSaver(const std::string &file, double seconds) : file_(file), seconds_(seconds)

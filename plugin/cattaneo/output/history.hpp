@@ -52,23 +52,29 @@ private:
 
        time, node, arc_length, x, y, state (see settled_states()), p, q (tractions: nodal forces
     over consistent weights), slip v, opening w + g; with two tangents q and slip have a column
-    of each, q1 and q2, slip1 and slip2: about an axis radial and circumferential. Needs arc
-   length, positions and weights.
+    of each, q1 and q2, slip1 and slip2: about an axis radial and circumferential. In space x,
+    y, z take the place of arc_length, x, y, and the last column is the area of the node, its
+    weight. Needs arc length (not in space), positions and weights.
 
-    The problem must outlive this. */
+    With several interfaces a column names that of each node: lines know it, for surfaces it
+    must be given. The problem must outlive this. */
 class NodeWriter
 {
 public:
    /// InputError if the file cannot be written or the problem lacks what is needed.
-   NodeWriter(const std::string &file, const ReducedProblem &problem);
+   /// `interface_of`: of each node in space, the name of its interface; empty: no such column.
+   NodeWriter(const std::string &file, const ReducedProblem &problem,
+              std::vector<std::string> interface_of = {});
    /// Continues from the time of a state, like HistoryWriter.
-   NodeWriter(const std::string &file, const ReducedProblem &problem, double time);
+   NodeWriter(const std::string &file, const ReducedProblem &problem, double time,
+              std::vector<std::string> interface_of = {});
 
    /// InputError if the state does not fit or cannot be written.
    void add(const ContactState &state);
 
 private:
    const ReducedProblem &problem_;
+   const std::vector<std::string> interface_of_;
    StreamedFile file_;
 };
 

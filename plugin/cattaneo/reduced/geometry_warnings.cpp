@@ -1,4 +1,6 @@
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cattaneo/condense/face_functions.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
@@ -16,6 +18,7 @@ namespace
 
 using Eigen::Index;
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 const double in_degrees = 180 / std::acos(-1.0);
 
@@ -155,6 +158,70 @@ void say_moved(const Reduction &reduction, const InterfaceReport &face,
       "and results have neither its friction nor its slip. Both are there where the contact "
       "ends "
       "before the part that is moved"));
+}
+
+/// The point of a triangle that is nearest to a place.
+Vector3d nearest_on_triangle(const Vector3d &place, const std::array<Vector3d, 3> &corners)
+{
+   const Vector3d one = corners[1] - corners[0], two = corners[2] - corners[0],
+                  across = one.cross(two);
+   Vector3d nearest = corners[0];
+   bool inside = across.norm() > 0;
+   for (std::size_t k = 0; k < 3; ++k)
+   {
+      const Vector3d &from = corners[k];
+      const Vector3d along = corners[(k + 1) % 3] - from, to = place - from;
+      inside = inside && across.dot(along.cross(to)) >= 0;
+      const double share = std::clamp(to.dot(along) / along.squaredNorm(), 0.0, 1.0);
+      const Vector3d on_edge = from + share * along;
+      if ((place - on_edge).norm() < (place - nearest).norm()) { nearest = on_edge; }
+   }
+   if (!inside) { return nearest; }
+   return place - across * (across.dot(place - corners[0]) / across.squaredNorm());
+}
+
+/// Sides in space that are tied although they are apart, or overlap.
+void say_apart(const Reduction &reduction, const InterfaceReport &face,
+               std::vector<std::string> &said)
+{
+   if (!face.tied || face.bodies[1] < 0 || face.places.rows() != face.nodes) { return; }
+   const ContactSurface &other = reduction.bodies[face.bodies[1]].surface;
+   double most = 0, worst = 0; // in distances of nodes, and as a length, of an overlap negative
+   Vector3d place(0, 0, 0);
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      const Vector3d here = face.places.row(i), normal = face.frames.row(i).segment<3>(6);
+      double away = std::numeric_limits<double>::infinity(), apart = 0;
+      for (const std::vector<Index> &nodes : other.faces)
+      {
+         const std::size_t corners = corners_of(nodes.size());
+         for (std::size_t k = 2; k < corners; ++k)
+         {
+            const std::array<Vector3d, 3> at{other.nodes[nodes[0]].position,
+                                             other.nodes[nodes[k - 1]].position,
+                                             other.nodes[nodes[k]].position};
+            // Faces that look the same way are those of the side itself.
+            if (other.nodes[nodes[0]].normal().dot(normal) > -0.5) { continue; }
+            const Vector3d to = here - nearest_on_triangle(here, at);
+            if (to.norm() >= away) { continue; }
+            away = to.norm();
+            apart = to.dot(normal) < 0 ? -away : away;
+         }
+      }
+      if (std::isfinite(away) && away > most * face.spacing[i])
+      {
+         most = away / face.spacing[i];
+         worst = apart;
+         place = here;
+      }
+   }
+   if (most <= 0.02) { return; }
+   said.push_back(sentence(
+      "interface '", face.name, "': its sides are tied although they ",
+      worst > 0 ? "are apart by up to " : "overlap by up to ", std::abs(worst), ", at ",
+      at(place),
+      ": their forces act on both sides of this distance, so that a shear leaves a moment "
+      "behind. Move the bodies together, or fill the space between them"));
 }
 
 /// Distance of a place from the straight line between two others.
@@ -384,6 +451,7 @@ std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eig
    for (const double force : p) { bears.push_back(force > 1e-6 * p.maxCoeff() && force > 0); }
    for (const InterfaceReport &face : reduction.interfaces)
    {
+      say_apart(reduction, face, said);
       if (face.tied) { continue; }
       say_normals(problem, face, bears, said);
       say_held(reduction, face, bears, said);

@@ -31,6 +31,8 @@ constexpr double uneven_edges = 0.2;
       (InterfaceReport::moved): their friction is left out;
     - a node at an edge of less than uneven_edges of the length of the edge beside it, if its
       pressure is more than 1.25 times the largest at all other nodes of its interface;
+    - sides in space that are tied although they are apart, or overlap, by more than a fiftieth
+      of the distance of nodes;
     - straight edges that stay a polygon where the other side is a smooth curve that their
       vertices fit: the gap is wrong by the distance between chord and curve.
 

@@ -158,11 +158,42 @@ VectorXd gaps_to_plane(const ContactSurface &surface, const Vector3d &point,
                });
 }
 
+namespace
+{
+
+/// The same, where a node whose normal passes a ball gets the gap that it would have at its
+/// distance if the normal were turned towards the ball. It counts those that do not.
+class BesideBalls
+{
+public:
+   template <class Vector>
+   double operator()(const Vector &e, const Vector &looks, double radius)
+   {
+      const double gap = to_ball(e, looks, radius);
+      if (std::isfinite(gap)) { ++facing_; }
+      return std::isfinite(gap) || radius < 0 ? gap : (e.norm() - radius) / least_sine;
+   }
+   /// InputError unless a node faces the obstacle.
+   void check(const char *obstacle) const
+   {
+      require(facing_ > 0, "obstacle: no node of the side faces the ", obstacle,
+              ", which must lie over the side: move it, or choose another side");
+   }
+
+private:
+   int facing_ = 0;
+};
+
+} // namespace
+
 VectorXd gaps_to_sphere(const ContactSurface &surface, const Vector3d &centre, double radius)
 {
    require_radius(radius);
-   return gaps(surface, [&](const Vector3d &x, const Vector3d &looks)
-               { return to_ball(Vector3d(x - centre), looks, radius); });
+   BesideBalls distance;
+   VectorXd all = gaps(surface, [&](const Vector3d &x, const Vector3d &looks)
+                       { return distance(Vector3d(x - centre), looks, radius); });
+   distance.check("sphere");
+   return all;
 }
 
 VectorXd gaps_to_cylinder(const ContactSurface &surface, const Vector3d &point,
@@ -174,13 +205,21 @@ VectorXd gaps_to_cylinder(const ContactSurface &surface, const Vector3d &point,
    const Vector3d along = axis.normalized();
    const auto across = [&along](const Vector3d &way) -> Vector3d
    { return way - along.dot(way) * along; };
-   return gaps(surface,
-               [&](const Vector3d &x, const Vector3d &looks)
-               {
-                  const Vector3d its = across(looks);
-                  return its.norm() <= least_sine ? std::nan("")
-                                                  : to_ball(across(x - point), its, radius);
-               });
+   BesideBalls distance;
+   VectorXd all = gaps(surface,
+                       [&](const Vector3d &x, const Vector3d &looks)
+                       {
+                          const Vector3d its = across(looks), e = across(x - point);
+                          // A normal along the axis passes a cylinder, and leaves no bore.
+                          const bool along_axis = its.norm() <= least_sine;
+                          if (along_axis && e.norm() <= std::abs(radius))
+                          {
+                             return std::nan("");
+                          }
+                          return distance(e, along_axis ? Vector3d(0, 0, 0) : its, radius);
+                       });
+   distance.check("cylinder");
+   return all;
 }
 
 namespace
@@ -220,6 +259,10 @@ VectorXd gaps_to_height(const ContactSurface &surface,
                      const Vector3d at = x + g * looks;
                      return at[2] - height(at[0], at[1]);
                   };
+                  require(std::isfinite(above(0)), "obstacle: its height at (", x[0], ", ",
+                          x[1],
+                          "), where the side has a node, is not a finite number: give one "
+                          "there, or end the contact before it");
                   return first_zero(above, step);
                });
 }

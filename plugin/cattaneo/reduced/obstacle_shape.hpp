@@ -27,15 +27,19 @@ Eigen::VectorXd gaps_to_circle(const InterfaceReport &nodes, const Eigen::Vector
 /// parallel to the plane does not face it.
 Eigen::VectorXd gaps_to_plane(const ContactSurface &surface, const Eigen::Vector3d &point,
                               const Eigen::Vector3d &normal);
-/// In space a sphere, or with a negative radius a hollow of that radius.
+/// In space a sphere, or with a negative radius a hollow of that radius. A node whose normal
+/// passes a sphere stays open: its gap is that of a node at the same distance whose normal is
+/// turned towards the sphere by 5 degrees. InputError if no node faces the sphere.
 Eigen::VectorXd gaps_to_sphere(const ContactSurface &surface, const Eigen::Vector3d &centre,
                                double radius);
 /// In space a cylinder about the axis through a point, without ends; with a negative radius a
-/// bore of that radius. `axis` of any length and sense. A node whose normal is parallel to the
-/// axis does not face it.
+/// bore of that radius. `axis` of any length and sense. A node whose normal passes a cylinder
+/// stays open, as beside a sphere. One within the radius whose normal is parallel to the axis
+/// does not face it.
 Eigen::VectorXd gaps_to_cylinder(const ContactSurface &surface, const Eigen::Vector3d &point,
                                  const Eigen::Vector3d &axis, double radius);
-/// In space the surface z = height(x, y), as gaps_to_curve().
+/// In space the surface z = height(x, y), as gaps_to_curve(). InputError where the height is
+/// not a number.
 Eigen::VectorXd gaps_to_height(const ContactSurface &surface,
                                const std::function<double(double, double)> &height);
 

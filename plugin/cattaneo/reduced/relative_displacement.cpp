@@ -1,7 +1,10 @@
+#include <Eigen/LU>
 #include <algorithm>
 #include <cattaneo/algebra/products.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/relative_displacement.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -44,6 +47,42 @@ SmallMatrix turned(const ContactRow &row, const TraceShare &share, const Condens
    const SmallMatrix weighted =
       Eigen::Vector3d(share.x, share.y, share.z).head(d).asDiagonal() * directions;
    return row.frame(d) * weighted;
+}
+
+/// Rows in groups, each after those that it depends on. Rows of one group depend
+/// on each other. `on`: the rows that each one depends on.
+std::vector<std::vector<int>> groups_in_order(const std::vector<std::vector<int>> &on)
+{
+   const auto n = static_cast<int>(on.size());
+   std::vector<std::vector<int>> groups;
+   std::vector<int> number(n, -1), lowest(n, -1), open;
+   std::vector<bool> is_open(n, false);
+   int next = 0;
+   const std::function<void(int)> visit = [&](int i)
+   {
+      number[i] = lowest[i] = next++;
+      open.push_back(i);
+      is_open[i] = true;
+      for (int j : on[i])
+      {
+         if (number[j] < 0) { visit(j); }
+         if (is_open[j]) { lowest[i] = std::min(lowest[i], lowest[j]); }
+      }
+      if (lowest[i] < number[i]) { return; }
+      groups.emplace_back();
+      for (int j = -1; j != i;)
+      {
+         j = open.back();
+         open.pop_back();
+         is_open[j] = false;
+         groups.back().push_back(j);
+      }
+   };
+   for (int i = 0; i < n; ++i)
+   {
+      if (number[i] < 0) { visit(i); }
+   }
+   return groups;
 }
 
 /// The components of a node, in its own frame, that lie along the axes of a row. In space the
@@ -199,61 +238,95 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
    {
       if (row_of[k] < 0) { displacement[k][y++] = 1; }
    }
-   std::vector<bool> made(rows.size(), false);
-   // First those of the nodes that a dependent one depends on. Dependent nodes that others
-   // depend on are few, and no deeper than there are interfaces.
-   const std::function<void(int)> make = [&](int i)
+   // The rows that determine what each row depends on.
+   std::vector<std::vector<int>> on(n);
+   for (int i = 0; i < n; ++i)
    {
-      if (made[i]) { return; }
-      made[i] = true;
-      const ContactRow &row = rows[i];
-      SmallMatrix own =
-         SmallMatrix::Zero(components, components); // columns: of the dependent components
-      std::array<Sum, 3> rest;
-      for (const TraceShare &share : row.shares)
+      for (const TraceShare &share : rows[i].shares)
       {
-         SmallMatrix block = SmallMatrix::Constant(1, 1, share.x);
-         if (components > 1) { block = turned(row, share, bodies[share.of.first]); }
          for (int b = 0; b < components; ++b)
          {
-            const int axis = row.axis_of(share.of, b, components);
-            const bool is_own = axis >= 0;
-            if (is_own) { own.col(axis) += block.col(b); }
             const int column = dof(share.of, b);
-            if (column < 0) { continue; }
-            if (!is_own && row_of[column] >= 0) { make(row_of[column]); }
-            for (int a = 0; a < components; ++a)
+            const bool by_row = column >= 0 && row_of[column] >= 0 && row_of[column] != i &&
+                                rows[i].axis_of(share.of, b, components) < 0;
+            if (by_row && !std::count(on[i].begin(), on[i].end(), row_of[column]))
             {
-               if (relative(i, a) < 0 || block(a, b) == 0) { continue; }
-               seen[relative(i, a)][column] += block(a, b);
-               if (!is_own) { add(rest[a], displacement[column], -block(a, b)); }
+               on[i].push_back(row_of[column]);
             }
          }
       }
-      for (int a = 0; a < components; ++a)
+   }
+   // Rows that depend on each other are few, those of faces that two interfaces share.
+   for (const std::vector<int> &group : groups_in_order(on))
+   {
+      const auto count = static_cast<int>(components * group.size());
+      std::map<int, int> place_in_group; // of dependent components
+      for (int k = 0; k < count; ++k)
       {
-         if (relative(i, a) >= 0) { rest[a][relative(i, a)] = 1; }
+         const ContactRow &row = rows[group[k / components]];
+         const int column = dof(row.dependent[k % components], row.component[k % components]);
+         if (column >= 0) { place_in_group[column] = k; }
       }
-      for (int a = 0; a < tangents(); ++a)
+      // Columns are those of the dependent components.
+      Eigen::MatrixXd own = Eigen::MatrixXd::Zero(count, count);
+      std::vector<Sum> rest(count);
+      for (int first = 0; first < count; first += components)
       {
-         if (row.slides[a]) { continue; }
-         // It moves perpendicular to the single held direction.
-         own.row(a).setZero();
-         own.col(a).setZero();
-         own(a, a) = 1;
-      }
-      const SmallMatrix inverse = own.inverse();
-      for (int b = 0; b < components; ++b)
-      {
-         const int column = dof(row.dependent[b], row.component[b]);
-         if (column < 0) { continue; }
+         const int i = group[first / components];
+         const ContactRow &row = rows[i];
+         for (const TraceShare &share : row.shares)
+         {
+            SmallMatrix block = SmallMatrix::Constant(1, 1, share.x);
+            if (components > 1) { block = turned(row, share, bodies[share.of.first]); }
+            for (int b = 0; b < components; ++b)
+            {
+               const int axis = row.axis_of(share.of, b, components), column = dof(share.of, b);
+               const auto found = place_in_group.find(column);
+               const int its = axis >= 0                       ? first + axis
+                               : found == place_in_group.end() ? -1
+                                                               : found->second;
+               if (its >= 0) { own.col(its).segment(first, components) += block.col(b); }
+               if (column < 0) { continue; }
+               for (int a = 0; a < components; ++a)
+               {
+                  if (relative(i, a) < 0 || block(a, b) == 0) { continue; }
+                  seen[relative(i, a)][column] += block(a, b);
+                  if (its < 0) { add(rest[first + a], displacement[column], -block(a, b)); }
+               }
+            }
+         }
          for (int a = 0; a < components; ++a)
          {
-            add(displacement[column], rest[a], inverse(b, a));
+            if (relative(i, a) >= 0) { rest[first + a][relative(i, a)] = 1; }
          }
       }
-   };
-   for (int i = 0; i < n; ++i) { make(i); }
+      for (int k = 0; k < count; ++k)
+      {
+         const int a = k % components;
+         if (a == tangents() || rows[group[k / components]].slides[a]) { continue; }
+         // It moves perpendicular to the single held direction.
+         own.row(k).setZero();
+         own.col(k).setZero();
+         own(k, k) = 1;
+      }
+      const Eigen::PartialPivLU<Eigen::MatrixXd> lu(own);
+      require(group.size() == 1 || lu.rcond() > 1e-10,
+              "reduce: several interfaces meet within faces of a slave, and their rows cannot "
+              "be told apart there: make the other side of one of them the slave, or mesh the "
+              "sides so that interfaces end where faces end");
+      const Eigen::MatrixXd inverse = lu.inverse();
+      const double small = group.size() == 1 ? 0 : 1e-15 * inverse.cwiseAbs().maxCoeff();
+      for (const auto &[column, k] : place_in_group)
+      {
+         for (int a = 0; a < count; ++a)
+         {
+            if (std::abs(inverse(k, a)) > small || group.size() == 1)
+            {
+               add(displacement[column], rest[a], inverse(k, a));
+            }
+         }
+      }
+   }
    E = matrix(size, displacement);
    seen.resize(size);
    G = matrix(size, seen).topRows(m);

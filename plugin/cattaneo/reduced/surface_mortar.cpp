@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace cattaneo
 {
@@ -25,7 +26,10 @@ using Eigen::VectorXd;
 constexpr double least_covered = 0.25;
 /// Least share of ∫φ_i over the covered part in the weight of a row.
 constexpr double least_weight = 0.1;
-/// Cover of a face, or of a part of it, below this share is left out.
+/// Largest ratio of ∫|ψ_i| to ∫ψ_i. It is below 7 on faces that are covered, and below 20 where
+/// a straight edge cuts them.
+constexpr double most_waves = 50;
+/// Cover of a face below this share is left out.
 constexpr double least_overlap = 1e-4;
 /// Least cosine of the angle between normals of one face that is no corner, 35 degrees.
 constexpr double cos_of_corner = 0.819152;
@@ -98,6 +102,9 @@ struct MortarFace
    /// Of its functions as polynomials of the place on a plane face with straight edges, of
    /// which it is a triangle or a parallelogram; 0: it is none.
    int degree = 0;
+   /// Along each side of a triangle, where its functions are no polynomials.
+   int points = 8;
+   bool curved = false; ///< follows_curve()
 
    MortarFace(const ContactSurface &surface, const std::vector<Index> &its,
               const std::string &what)
@@ -133,22 +140,69 @@ struct MortarFace
       }
       static const std::map<std::size_t, int> degrees{{3, 1}, {4, 2}, {6, 2}, {8, 3}, {9, 4}};
       if (off <= 1e-13 * radius) { degree = degrees.at(nodes.size()); }
+      curved = follows_curve();
+      // The Jacobian of a quadrilateral has the variation r: between corners, over its mean
+      // value. Gauss points converge as ρ^(-2n), ρ = 1/r + sqrt(1/r² - 1), because it vanishes
+      // at 1/r half edges from the middle.
+      double least = 0, most = 0;
+      for (Index a = 0; corners == 4 && a < 4; ++a)
+      {
+         const Vector3d one = x.col((a + 1) % 4) - x.col(a),
+                        two = x.col((a + 3) % 4) - x.col(a);
+         const double J = one.cross(two).dot(normal);
+         least = a == 0 ? J : std::min(least, J);
+         most = a == 0 ? J : std::max(most, J);
+      }
+      const double r = most > least ? (most - least) / (most + std::max(least, 0.0)) : 0;
+      if (r > 0.01)
+      {
+         const double rho = 1 / r + std::sqrt(std::max(1 / (r * r) - 1, 0.0));
+         points = std::clamp(static_cast<int>(std::ceil(16 / std::log(rho))) + 2, 8, 40);
+      }
    }
 
-   /** How far into the body a smooth surface lies behind a face of order 1, at a point with
-       these functions. A function with the second derivatives H differs from what the nodes
-       make of it by -1/2 Σ φ_a φ_b dᵀ H d over pairs of nodes, d = x_b - x_a. Along the normal
-       H d is the difference of their normals, with the opposite sign. */
+   /// Is it a face of order 2 whose edges follow the curve that the normals of their ends show?
+   bool follows_curve() const
+   {
+      const auto corners = static_cast<Index>(corners_of(nodes.size()));
+      double off = 0, expected = 0; // of the middles of edges, along the normal
+      for (Index e = 0; e < corners && corners < x.cols(); ++e)
+      {
+         const Index next = (e + 1) % corners;
+         const Vector3d edge = x.col(next) - x.col(e);
+         off =
+            std::max(off, std::abs((x.col(corners + e) - x.col(e) - 0.5 * edge).dot(normal)));
+         expected =
+            std::max(expected, std::abs(edge.dot(normals.col(next) - normals.col(e))) / 8);
+      }
+      return corners < x.cols() && off > 0.1 * expected;
+   }
+
+   /** How far into the body a smooth surface lies behind a face of order 1, or one of order 2
+       with straight edges, at a point with these functions. A function with the second
+       derivatives H differs from what the corners make of it by -1/2 Σ φ_a φ_b dᵀ H d over
+       pairs of corners, d = x_b - x_a. Along the normal H d is the difference of their normals,
+       with the opposite sign. */
    double behind(const NodeValues &functions) const
    {
+      if (curved) { return 0; }
+      const auto corners = static_cast<Index>(corners_of(nodes.size()));
+      // Linear functions of the corners: 1/2 at the middles of edges, 1/4 at that of a face.
+      NodeValues linear = functions;
+      for (Index e = 0; e < corners && corners < x.cols(); ++e)
+      {
+         linear[e] += 0.5 * functions[corners + e];
+         linear[(e + 1) % corners] += 0.5 * functions[corners + e];
+         if (x.cols() == 9) { linear[e] += 0.25 * functions[8]; }
+      }
       double sum = 0;
-      for (Index a = 0; a < x.cols() && x.cols() <= 4; ++a)
+      for (Index a = 0; a < corners; ++a)
       {
          for (Index b = 0; b < a; ++b)
          {
             // At corners the faces are meant as they are.
             if (normals.col(a).dot(normals.col(b)) < cos_of_corner) { return 0; }
-            sum += functions[a] * functions[b] *
+            sum += linear[a] * linear[b] *
                    (x.col(b) - x.col(a)).dot(normals.col(b) - normals.col(a));
          }
       }
@@ -237,6 +291,11 @@ public:
       for (int node : nodes) { has_row_[node] = false; }
    }
    SurfaceMortar result() const;
+   bool any_faced() const
+   {
+      return std::any_of(overlaps_.begin(), overlaps_.end(),
+                         [](const std::vector<Overlap> &its) { return !its.empty(); });
+   }
    bool all_whole() const
    {
       for (std::size_t e = 0; e < faces_.size(); ++e)
@@ -251,16 +310,14 @@ private:
    void find_shares();
    std::vector<SurfacePoint> points_of(std::size_t face) const;
    bool is_whole(std::size_t face) const;
-   void add_whole(std::size_t face, const std::vector<SurfacePoint> &points);
-   void add_part(std::size_t face, std::size_t part, const std::vector<SurfacePoint> &points);
+   void add_face(std::size_t face);
    void add_rows(const std::vector<Index> &rows, const MatrixXd &psi,
-                 const std::vector<const SurfacePoint *> &points);
+                 const std::vector<SurfacePoint> &points);
    Index nearest_row(std::size_t face) const;
 
    using Entries = std::map<std::pair<Index, Index>, double>;
-   SurfaceMortar::Matrix matrix(const Entries &entries, const Entries &of_nodes,
-                                const std::vector<Index> &number,
-                                const ContactSurface &surface) const;
+   SurfaceMortar::Matrix matrix(const Entries &entries, const std::vector<Index> &number,
+                                Index columns) const;
 
    const ContactSurface &slave_, &master_;
    const std::string what_;
@@ -268,13 +325,13 @@ private:
    std::vector<std::vector<Overlap>> overlaps_;
    /// Of each linear part of each face: its area, and how much of it is covered.
    std::vector<std::vector<double>> area_, covered_;
-   std::vector<bool> has_row_, faced_;
+   std::vector<bool> has_row_, faced_, taken_;
    std::vector<std::vector<std::size_t>> faces_at_; ///< of each node
-   // Of each node of the slave; entries of functions of the unknowns, and of those of nodes.
-   VectorXd weights_, within_, chords_;
+   // Of each node of the slave; entries of functions of the unknowns.
+   VectorXd weights_, waves_, within_, chords_;
    Eigen::MatrixX3d apart_;
-   Entries own_, own_at_nodes_, other_;
-   double left_out_ = 0;
+   Entries own_, other_;
+   double left_out_ = 0, given_away_ = 0;
 };
 
 SurfaceAssembly::SurfaceAssembly(const ContactSurface &slave, const ContactSurface &master,
@@ -282,7 +339,7 @@ SurfaceAssembly::SurfaceAssembly(const ContactSurface &slave, const ContactSurfa
    : slave_(slave), master_(master), what_(what), faces_(faces_of(slave, what)),
      opposite_(faces_of(master, what)), overlaps_(faces_.size()), area_(faces_.size()),
      covered_(faces_.size()), has_row_(slave.size(), true), faced_(slave.size(), false),
-     faces_at_(slave.size())
+     taken_(slave.size(), false), faces_at_(slave.size())
 {
    for (std::size_t e = 0; e < faces_.size(); ++e)
    {
@@ -294,6 +351,7 @@ SurfaceAssembly::SurfaceAssembly(const ContactSurface &slave, const ContactSurfa
    {
       require(node >= 0 && node < slave.size(), what, ": node ", node,
               " shall have no row, must be from 0 to ", slave.size() - 1);
+      taken_[node] = has_row_[node];
       has_row_[node] = false;
    }
 }
@@ -433,7 +491,8 @@ std::vector<SurfacePoint> SurfaceAssembly::points_of(std::size_t e) const
       // Exact for products of functions of triangles and parallelograms.
       const bool exact = face.degree > 0 && other.degree > 0;
       const QuadratureRule &rule =
-         gauss_rule(exact ? (face.degree + std::max(face.degree, other.degree) + 3) / 2 : 8);
+         gauss_rule(exact ? (face.degree + std::max(face.degree, other.degree) + 3) / 2
+                          : std::max(face.points, other.points));
       const Polygon &polygon = overlap.polygon;
       for (std::size_t k = 2; k < polygon.size(); ++k)
       {
@@ -475,43 +534,35 @@ std::vector<SurfacePoint> SurfaceAssembly::points_of(std::size_t e) const
 std::vector<int> SurfaceAssembly::integrate()
 {
    const Index n = slave_.size();
-   weights_ = chords_ = VectorXd::Zero(n);
+   weights_ = waves_ = chords_ = VectorXd::Zero(n);
    apart_ = Eigen::MatrixX3d::Zero(n, 3);
    own_.clear();
-   own_at_nodes_.clear();
    other_.clear();
-   left_out_ = 0;
+   left_out_ = given_away_ = 0;
    for (std::size_t e = 0; e < faces_.size(); ++e)
    {
-      if (overlaps_[e].empty()) { continue; }
-      const std::vector<Index> &nodes = faces_[e].nodes;
-      const std::vector<SurfacePoint> points = points_of(e);
-      if (is_whole(e) && std::all_of(nodes.begin(), nodes.end(),
-                                     [this](Index node) { return has_row_[node]; }))
-      {
-         add_whole(e, points);
-         continue;
-      }
-      for (std::size_t p = 0; p < area_[e].size(); ++p)
-      {
-         if (covered_[e][p] >= least_overlap * area_[e][p]) { add_part(e, p, points); }
-         else { left_out_ += covered_[e][p]; }
-      }
+      const double covered = std::accumulate(covered_[e].begin(), covered_[e].end(), 0.0),
+                   area = std::accumulate(area_[e].begin(), area_[e].end(), 0.0);
+      if (covered >= least_overlap * area) { add_face(e); }
+      else { left_out_ += covered; }
    }
    std::vector<int> bad;
    for (Index i = 0; i < n; ++i)
    {
-      if (has_row_[i] && !(weights_[i] > least_weight * within_[i]))
-      {
-         bad.push_back(static_cast<int>(i));
-      }
+      const bool good =
+         weights_[i] > least_weight * within_[i] && waves_[i] <= most_waves * weights_[i];
+      if (has_row_[i] && !good) { bad.push_back(static_cast<int>(i)); }
    }
    return bad;
 }
 
-/// The dual functions of all unknowns of a face that is covered.
-void SurfaceAssembly::add_whole(std::size_t e, const std::vector<SurfacePoint> &points)
+/** The dual functions of a face, over its covered part. With φ of the unknowns of its nodes,
+    those without a row share theirs among the others, φ', and ψ = D (∫ φ' φᵀ)⁻¹ φ' is dual to
+    the functions of the nodes with rows, D = diag ∫ φ. They sum to 1, as the φ' do. A face
+    without any such node goes to the nearest row of a face beside it. */
+void SurfaceAssembly::add_face(std::size_t e)
 {
+   const std::vector<SurfacePoint> points = points_of(e);
    const std::vector<Index> &nodes = faces_[e].nodes;
    const auto count = static_cast<Index>(nodes.size()),
               last = static_cast<Index>(points.size());
@@ -526,60 +577,30 @@ void SurfaceAssembly::add_whole(std::size_t e, const std::vector<SurfacePoint> &
          B(a, std::find(nodes.begin(), nodes.end(), end) - nodes.begin()) = 0.2;
       }
    }
-   MatrixXd phi(count, last), weighted(count, last);
-   std::vector<const SurfacePoint *> all;
-   for (Index p = 0; p < last; ++p)
-   {
-      const SurfacePoint &point = points[p];
-      phi.col(p) = B.transpose() * point.own;
-      weighted.col(p) = point.weight * phi.col(p);
-      all.push_back(&point);
-   }
-   // 2. ψ = D M⁻¹ φ, times the weights of the points.
-   const VectorXd D = weighted.rowwise().sum();
-   const MatrixXd M = weighted * phi.transpose();
-   add_rows(nodes, D.asDiagonal() * M.ldlt().solve(weighted), all);
-   for (Index a = 0; a < count; ++a) { own_[{nodes[a], nodes[a]}] += D[a]; }
-}
-
-/** Functions on a linear part of a face. Nodes without a row share theirs among the others,
-    φ', and ψ = D (∫ φ' φᵀ)⁻¹ φ' is dual to the functions of the nodes with rows. They sum to 1,
-    as the φ' do. A part without any such node goes to the nearest row of a face beside it. */
-void SurfaceAssembly::add_part(std::size_t e, std::size_t part,
-                               const std::vector<SurfacePoint> &points)
-{
-   const std::vector<Index> &its = linear_parts(faces_[e].nodes.size())[part];
-   std::vector<Index> nodes, kept, lost, rows;
-   for (std::size_t a = 0; a < its.size(); ++a)
-   {
-      nodes.push_back(faces_[e].nodes[its[a]]);
-      (has_row_[nodes.back()] ? kept : lost).push_back(static_cast<Index>(a));
-      if (has_row_[nodes.back()]) { rows.push_back(nodes.back()); }
-   }
-   std::vector<const SurfacePoint *> all;
-   for (const SurfacePoint &point : points)
-   {
-      if (point.part == part) { all.push_back(&point); }
-   }
-   const auto last = static_cast<Index>(all.size());
-   MatrixXd phi(static_cast<Index>(nodes.size()), last);
+   MatrixXd phi(count, last);
    VectorXd weights(last);
    for (Index p = 0; p < last; ++p)
    {
-      phi.col(p) = all[p]->on_part;
-      weights[p] = all[p]->weight;
+      phi.col(p) = B.transpose() * points[p].own;
+      weights[p] = points[p].weight;
    }
-   MatrixXd psi = weights.transpose();
-   if (rows.empty())
+   // 2. Nodes with a row, and without.
+   std::vector<Index> kept, lost, rows;
+   for (Index a = 0; a < count; ++a)
    {
-      rows = {nearest_row(e)};
-      if (rows[0] < 0)
-      {
-         left_out_ += weights.sum();
-         return;
-      }
+      (has_row_[nodes[a]] ? kept : lost).push_back(a);
+      if (has_row_[nodes[a]]) { rows.push_back(nodes[a]); }
+      if (taken_[nodes[a]]) { given_away_ += phi.row(a).dot(weights); }
    }
-   else if (rows.size() > 1)
+   if (rows.empty()) { rows = {nearest_row(e)}; }
+   if (rows[0] < 0)
+   {
+      left_out_ += weights.sum();
+      return;
+   }
+   // 3. ψ times the weights of the points. A single one is 1.
+   MatrixXd psi = weights.transpose();
+   if (kept.size() > 1)
    {
       const MatrixXd of_kept = phi(kept, Eigen::all);
       MatrixXd shared = of_kept;
@@ -591,16 +612,14 @@ void SurfaceAssembly::add_part(std::size_t e, std::size_t part,
       const MatrixXd M = shared * of_kept.transpose();
       psi = (of_kept * weights).asDiagonal() * M.fullPivLu().solve(shared);
    }
-   add_rows(rows, psi, all);
+   add_rows(rows, psi, points);
+   // 4. ∫ψ φᵀ, which is D among nodes with rows.
+   for (Index a : kept) { own_[{nodes[a], nodes[a]}] += phi.row(a).dot(weights); }
    for (std::size_t i = 0; i < rows.size(); ++i)
    {
-      for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (Index a : lost)
       {
-         // Zero between different nodes with functions here, apart from round-off.
-         const bool dual = has_row_[nodes[a]] && nodes[a] != rows[i];
-         if (dual) { continue; }
-         own_at_nodes_[{rows[i], nodes[a]}] +=
-            psi.row(static_cast<Index>(i)).dot(phi.row(static_cast<Index>(a)));
+         own_[{rows[i], nodes[a]}] += psi.row(static_cast<Index>(i)).dot(phi.row(a));
       }
    }
 }
@@ -631,23 +650,30 @@ Index SurfaceAssembly::nearest_row(std::size_t e) const
 /// Adds all but the slave's own part to rows. `psi` has their functions times the weights of
 /// the points.
 void SurfaceAssembly::add_rows(const std::vector<Index> &rows, const MatrixXd &psi,
-                               const std::vector<const SurfacePoint *> &points)
+                               const std::vector<SurfacePoint> &points)
 {
    // Points of one face of the master follow one another.
    for (std::size_t first = 0, next = 0; first < points.size(); first = next)
    {
-      const std::size_t master = points[first]->master;
+      const std::size_t master = points[first].master;
       const std::vector<Index> &nodes = opposite_[master].nodes;
       MatrixXd sums = MatrixXd::Zero(psi.rows(), static_cast<Index>(nodes.size()));
-      for (next = first; next < points.size() && points[next]->master == master; ++next)
+      for (next = first; next < points.size() && points[next].master == master; ++next)
       {
-         sums += psi.col(static_cast<Index>(next)) * points[next]->facing.transpose();
+         sums += psi.col(static_cast<Index>(next)) * points[next].facing.transpose();
       }
-      for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t m = 0; m < nodes.size(); ++m)
       {
-         for (std::size_t m = 0; m < nodes.size(); ++m)
+         const std::array<Index, 2> &ends = master_.nodes[nodes[m]].between;
+         for (std::size_t i = 0; i < rows.size(); ++i)
          {
-            other_[{rows[i], nodes[m]}] += sums(static_cast<Index>(i), static_cast<Index>(m));
+            // Coefficients of the unknowns.
+            const double value = sums(static_cast<Index>(i), static_cast<Index>(m));
+            other_[{rows[i], nodes[m]}] += (ends[0] < 0 ? 1 : 0.6) * value;
+            for (Index end : ends)
+            {
+               if (end >= 0) { other_[{rows[i], end}] += 0.2 * value; }
+            }
          }
       }
    }
@@ -657,38 +683,28 @@ void SurfaceAssembly::add_rows(const std::vector<Index> &rows, const MatrixXd &p
       {
          const double value = psi(static_cast<Index>(i), static_cast<Index>(p));
          weights_[rows[i]] += value;
-         apart_.row(rows[i]) += value * points[p]->apart;
-         chords_[rows[i]] += value * points[p]->chords;
+         waves_[rows[i]] += std::abs(value);
+         apart_.row(rows[i]) += value * points[p].apart;
+         chords_[rows[i]] += value * points[p].chords;
       }
    }
 }
 
-/// Coefficients of the unknowns, of which rows sum to 1, from those of the unknowns and those
-/// of the nodes.
-SurfaceMortar::Matrix SurfaceAssembly::matrix(const Entries &entries, const Entries &of_nodes,
+/// The entries of rows, each divided by their sum.
+SurfaceMortar::Matrix SurfaceAssembly::matrix(const Entries &entries,
                                               const std::vector<Index> &number,
-                                              const ContactSurface &surface) const
+                                              Index columns) const
 {
-   Entries sums = entries;
-   for (const auto &[at, value] : of_nodes)
-   {
-      const std::array<Index, 2> &ends = surface.nodes[at.second].between;
-      sums[at] += (ends[0] < 0 ? 1 : 0.6) * value;
-      for (Index end : ends)
-      {
-         if (end >= 0) { sums[{at.first, end}] += 0.2 * value; }
-      }
-   }
    VectorXd whole = VectorXd::Zero(slave_.size());
-   for (const auto &[at, value] : sums) { whole[at.first] += value; }
+   for (const auto &[at, value] : entries) { whole[at.first] += value; }
    std::vector<Eigen::Triplet<double>> list;
-   for (const auto &[at, value] : sums)
+   for (const auto &[at, value] : entries)
    {
       list.emplace_back(static_cast<int>(number[at.first]), static_cast<int>(at.second),
                         value / whole[at.first]);
    }
    SurfaceMortar::Matrix made(
-      static_cast<Index>(std::count(has_row_.begin(), has_row_.end(), true)), surface.size());
+      static_cast<Index>(std::count(has_row_.begin(), has_row_.end(), true)), columns);
    made.setFromTriplets(list.begin(), list.end());
    return made;
 }
@@ -707,11 +723,12 @@ SurfaceMortar SurfaceAssembly::result() const
       else if (!faced_[i]) { made.free_surface.push_back(static_cast<int>(i)); }
    }
    const auto n = static_cast<Index>(made.nodes.size());
-   made.own = matrix(own_, own_at_nodes_, number, slave_);
-   made.other = matrix({}, other_, number, master_);
+   made.own = matrix(own_, number, slave_.size());
+   made.other = matrix(other_, number, master_.size());
    made.weights = weights_(made.nodes);
    made.chords = chords_(made.nodes).cwiseQuotient(made.weights);
    made.left_out = left_out_;
+   made.given_away = given_away_;
    made.size = VectorXd::Zero(n);
    for (std::size_t e = 0; e < faces_.size(); ++e)
    {
@@ -761,6 +778,9 @@ SurfaceMortar mortar(const ContactSurface &slave, const ContactSurface &master,
       assembly.leave_out(bad);
    }
    SurfaceMortar found = assembly.result();
+   require(assembly.any_faced(), what,
+           ": the sides do not face each other, each must lie over the other and look at it: "
+           "check which parts of the boundaries they are, and where the bodies are");
    require(!found.nodes.empty(), what, ": no node of the slave ",
            without.empty() ? "lies over the master"
                            : "that lies over the master is free of other interfaces",

@@ -283,14 +283,17 @@ std::vector<ContactRow> rows_with_slave(const std::vector<CondensedBody> &bodies
          std::string why;
          rows.push_back(row_of_mortar(bodies, met, i, why));
          if (refused.empty()) { refused = why; }
-         // A node of both sides, such as the tip of a crack, would depend on itself.
+         // A node of both sides, such as the tip of a crack, would depend on itself. Nodes of
+         // the slave's own faces that have rows of other interfaces form no ring, because these
+         // rows are of other parts of the faces.
          std::vector<NodeOfBody> by;
          for (const TraceShare &share : rows.back().shares)
          {
-            const bool faces_itself =
-               met.slave.body == met.master.body &&
-               std::count(met.master.nodes.begin(), met.master.nodes.end(), share.of.second);
-            if (share.of != rows.back().slave || faces_itself) { by.push_back(share.of); }
+            const bool is_own = share.of.first == met.slave.body,
+                       faces_itself = is_own && met.slave.body == met.master.body &&
+                                      std::count(met.master.nodes.begin(),
+                                                 met.master.nodes.end(), share.of.second);
+            if (!is_own || faces_itself) { by.push_back(share.of); }
          }
          if (trial.determine(rows.back().slave, by)) { continue; }
          met.without_row.push_back(met.surfaces.nodes[i]);
@@ -341,7 +344,33 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
                                                                   : coarser < 0;
       if (first == second ? by_spacing : second) { exchange(); }
    }
+   const JoinedNodes before = joined;
    std::vector<ContactRow> rows = rows_with_slave(bodies, joined, met, refused);
+   // Interfaces may end within faces of this side, so that the first of them has their nodes.
+   const double lost = met.surfaces.given_away;
+   if (free && refused.empty() && lost > 0.05 * met.surfaces.weights.sum())
+   {
+      MetInterface turned = met;
+      std::swap(turned.slave, turned.master);
+      turned.of_second = !turned.of_second;
+      JoinedNodes its = before;
+      std::string why;
+      std::vector<ContactRow> other;
+      try
+      {
+         other = rows_with_slave(bodies, its, turned, why);
+      }
+      catch (const InputError &error)
+      {
+         why = error.what();
+      }
+      if (why.empty() && turned.surfaces.given_away < 0.5 * lost)
+      {
+         met = std::move(turned);
+         joined = std::move(its);
+         rows = std::move(other);
+      }
+   }
    if (!refused.empty() && free)
    {
       exchange();
@@ -354,7 +383,7 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
    met.mortar.nodes = found.nodes;
    met.mortar.weights = found.weights;
    met.mortar.gap = found.gap;
-   for (Index i = 0; i < found.gap.size() && !given.gap && !given.node_gaps && !given.tied; ++i)
+   for (Index i = 0; i < found.gap.size() && !given.gap && !given.node_gaps; ++i)
    {
       const double most = given.most_overlap * found.size[i];
       require(found.gap[i] >= -most, met.what, ": the sides overlap by ",
@@ -363,7 +392,8 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
               " of the face's edge): ",
               found.gap[i] < -found.size[i]
                  ? "are these the sides that touch, and are the bodies in their places?"
-                 : "allow more for an interference fit, or give the gap");
+              : given.tied ? "sides that are tied must touch: move one of them"
+                           : "allow more for an interference fit, or give the gap");
    }
    if (given.gap || given.node_gaps) { met.mortar.gap = gaps_of(given, met, {})(found.nodes); }
    return rows;

@@ -78,7 +78,8 @@ struct RelativeDisplacement
 
    /// Number of tangents of a node.
    int tangents() const { return components == 3 ? 2 : 1; }
-   /// No dependent displacement may depend on itself.
+   /// Dependent displacements may depend on each other, such as those of faces that two
+   /// interfaces share. InputError if these cannot be told apart.
    RelativeDisplacement(const std::vector<CondensedBody> &bodies,
                         const std::vector<ContactRow> &rows);
    Eigen::Index size() const { return E.rows(); }
