@@ -1,0 +1,95 @@
+"""Bodies in space against closed forms and against the plane: a ring, and a dovetail of finite width."""
+
+import math
+import sys
+
+from programs import ROOT, even, mesh_text, near, near_all, near_relative, rectangle, shipped
+
+sys.path.insert(0, str(ROOT / "meshes"))
+import solids  # noqa: E402
+
+
+def at_point(columns, key, time):
+    """A column of a table at a point of the history."""
+    return next(value for value, t in zip(columns[key], columns["time"]) if abs(t - time) < 1e-9)
+
+
+def ring(run, cells, friction, increments, numbers):
+    """A ring on a rigid plane, pressed and then turned to and fro: as a cross-section about its axis, and as hexahedra, of which so many go
+    around. Courses of the tables of the history."""
+    march = {"history": ["P=0", "P=1", "T=1", "T=-1", "T=1"], "stepping": "fixed", "increments": increments, "order": 1}
+    run.write("section.mesh", rectangle(even(1, 2, cells), even(0, 1, cells)))
+    run.case({"analysis": "axisymmetric", **march,
+              "bodies": {"ring": {"mesh": str(run.folder / "section.mesh"), "young": 1, "poisson": 0.3, "load": "P pressure 3 1; T traction-t 3 0.14*r"}},
+              "interfaces": {"floor": {"between": "ring:1", "friction": friction}}}, "--csv", run.folder / "flat")
+    yield run.columns("flat_history.csv")
+    for around in numbers:
+        points = [(r * math.cos(2 * math.pi * m / around), r * math.sin(2 * math.pi * m / around)) for m in range(around) for r in even(1, 2, cells)]
+        quads = []
+        for m in range(around):
+            first, second = m * (cells + 1), (m + 1) % around * (cells + 1)
+            quads += [(first + k, first + k + 1, second + k + 1, second + k) for k in range(cells)]
+        run.write("ring.msh", solids.gmsh_text(solids.layers(solids.Plan(points, quads, []), even(0, 1, cells))))
+        run.case({"analysis": "space", **march,
+                  "bodies": {"ring": {"mesh": str(run.folder / "ring.msh"), "young": 1, "poisson": 0.3,
+                                      "load": "P pressure high 1; T traction high -0.14*y 0.14*x 0"}},
+                  "interfaces": {"floor": {"between": "ring:low", "friction": friction,
+                                           "obstacle": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}}}}, "--csv", run.folder / "deep")
+        yield run.columns("deep_history.csv")
+
+
+def test_a_ring_of_hexahedra_is_the_axisymmetric_one(run):
+    """Polygons of 32 and 64 sides: their limit, by the square of the angle of an element, is the ring about the axis, to the change between
+    both. Where nothing slips, the angle of twist is that of a shaft."""
+    for table in ring(run, 4, 2, 2, (16,)):
+        near_relative(at_point(table, "displacement T", 2), 0.14 * 2 * 1.3, 1e-9)
+    axial, coarse, fine = ring(run, 8, 0.3, 10, (32, 64))
+    for key, time, most in (("displacement P", 1, 1e-3), ("displacement T", 2, 2e-3), ("total_dissipation", 2, 0.05)):
+        one, other, exact = (at_point(table, key, time) for table in (coarse, fine, axial))
+        change = abs(other - one)
+        assert change < most * abs(exact)
+        assert abs(other + (other - one) / 3 - exact) < change, (key, time, one, other, exact)
+    assert 0 < at_point(fine, "slip", 2) and 0 < at_point(fine, "stick", 2)
+
+
+def dovetail(run, held, sides="flank,arc"):
+    """The shipped dovetail; its free face held, if it is said."""
+    case = shipped("dovetail_3d")
+    for body in case["bodies"].values():
+        body["support"] += " face:z" if held else ""
+    case["interfaces"]["flank"]["between"] = ["root:" + sides, "disc:" + sides]
+    return run.case({**case, "stepping": "fixed"}, "--csv", run.folder / "dovetail")
+
+
+def plane_dovetail(run, arcs):
+    """The plane dovetail on the same straight triangles, in which the contact ends with the flat flank or has the arcs beside it."""
+    plane = shipped("dovetail")
+    sides = {"symmetry": 1, "end": 2, "flank": 3, "arc": 3 if arcs else 4, "free": 4, "next": 5}
+    for name in plane["bodies"]:
+        flat = solids.dovetail_plan(ROOT / "meshes", name)
+        plane["bodies"][name]["mesh"] = run.write(name + ".mesh", mesh_text(
+            [f"1 2 {' '.join(map(str, cell))}" for cell in flat.cells], [f"{sides[side]} 1 {a} {b}" for side, (a, b) in flat.edges],
+            ["%.17g %.17g" % at for at in flat.points]))
+    del plane["interfaces"]["flank"]["pairing"]
+    return run.case({**plane, "order": 1, "cycles": 2, "increments": 10, "stepping": "fixed"}, "--csv", run.folder / "plane")
+
+
+def test_dovetail_between_walls_is_the_plane_one(run):
+    """The dovetail of finite width whose faces are held is that of plane strain on the same triangles. With arcs, whose chords do not face
+    each other, the plane's sides are smooth curves: there, and with free faces, it differs, by what the guide says."""
+    depth, exact = 3, 1e-9
+    plane, held = plane_dovetail(run, False).interface("flank"), dovetail(run, True, "flank").interface("flank")
+    for key in ("normal", "force_x", "force_y"):
+        near_relative(held[key], depth * plane[key], exact)
+    for key in ("stick", "slip"):
+        near(held[key], depth * plane[key], 0.15 * depth)
+    # Increments differ, which changes the loss by less than 1e-4 of it.
+    near_relative(held["dissipation"], depth * plane["dissipation"], 1e-4)
+    plane, held, free = plane_dovetail(run, True), dovetail(run, True), dovetail(run, False)
+    for got in (held, free):
+        # All that pulls the root, 200 N/mm² on its end, goes through the flank.
+        near_relative(got.interface("flank")["force_y"], depth * plane.interface("flank")["force_y"], exact)
+        near_all([row["imbalance"] for row in got["balance"]], 0, exact)
+        near_relative(got["peak_pressure"], plane["peak_pressure"], 0.04)
+    near_relative(held.interface("flank")["dissipation"], depth * plane.interface("flank")["dissipation"], 0.03)
+    assert 1.05 < free.interface("flank")["dissipation"] / held.interface("flank")["dissipation"] < 1.3
