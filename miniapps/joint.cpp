@@ -13,7 +13,8 @@
 
 #include "common/run.hpp"
 #include "common/watch.hpp"
-#include "contact/own_bodies.hpp"
+#include "contact/contact_in_space.hpp"
+#include "contact/report_in_space.hpp"
 #include "joint/case_of_joint.hpp"
 #include "joint/modal_curves.hpp"
 
@@ -30,39 +31,66 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Every body must have a mass.
-std::vector<VibratingBody> with_mass(const JointCase &joint, const OwnBodies &own)
+/// Adds the matrix that is this body, with its mass; false if it has none.
+bool add_matrix(std::vector<VibratingBody> &all, const OwnBodies &own, std::size_t body)
+{
+   const auto found = own.vibrating.find(body);
+   if (found == own.vibrating.end()) { return false; }
+   all.push_back(found->second);
+   return true;
+}
+bool add_matrix(std::vector<VibratingBody> &, const BodiesInSpace &, std::size_t)
+{
+   return false;
+}
+
+/// Every body must have a mass. `Own` is OwnBodies or BodiesInSpace.
+template <class Own>
+std::vector<VibratingBody> with_mass(const JointCase &joint, const Own &own)
 {
    std::vector<VibratingBody> all;
+   std::size_t mesh = 0; // matrices have no elements
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
       const JointCase::Body &body = joint.bodies[b];
-      require(!body.mesh.empty(), "body ", body.name, " is ",
-              body.half_plane ? "a half-plane" : "a matrix",
-              ", which has no mass: all bodies of a joint that vibrates must have meshes");
-      require(!own.densities[b].empty(), body.source.called("density"),
+      require(!body.half_plane, "body ", body.name,
+              " is a half-plane, which has no mass: all bodies of a joint that vibrates must "
+              "have meshes, or be matrices with a mass");
+      if (!body.matrix.empty())
+      {
+         require(add_matrix(all, own, b), body.source.called("mass"),
+                 " is missing: all matrices of a joint that vibrates must have one, a file of "
+                 "the program that wrote the matrix");
+         continue;
+      }
+      require(!own.densities[mesh].empty(), body.source.called("density"),
               " is missing: all bodies of a joint that vibrates must have one (in mm and N "
               "steel has 7.85e-9)");
-      all.push_back(vibrating_body(*own.scene.bodies[b], own.densities[b]));
+      all.push_back(vibrating_body(*own.scene.bodies[mesh], own.densities[mesh]));
+      ++mesh;
    }
    return all;
 }
 
 /// A sentence if stiffness, density and length cannot be in the units that the case names.
-void warn_of_units(const JointCase &joint, const OwnBodies &own)
+template <class Own>
+void warn_of_units(const JointCase &joint, const Own &own)
 {
    const std::map<std::string, double> metres{{"m", 1},      {"cm", 1e-2}, {"mm", 1e-3},
                                               {"um", 1e-6},  {"µm", 1e-6}, {"in", 0.0254},
                                               {"ft", 0.3048}};
    const auto unit = metres.find(joint.unit_of_length);
    if (unit == metres.end()) { return; }
+   std::size_t mesh = 0;
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
-      const std::vector<Material> &its = own.materials[b];
-      for (std::size_t a = 0; a < std::max(its.size(), own.densities[b].size()); ++a)
+      if (!joint.bodies[b].matrix.empty()) { continue; } // nothing is known of it
+      const std::vector<Material> &its = own.materials[mesh];
+      const std::vector<double> &densities = own.densities[mesh++];
+      for (std::size_t a = 0; a < std::max(its.size(), densities.size()); ++a)
       {
          const double young = its[its.size() == 1 ? 0 : a].young,
-                      density = own.densities[b][own.densities[b].size() == 1 ? 0 : a],
+                      density = densities[densities.size() == 1 ? 0 : a],
                       speed = std::sqrt(young / density) * unit->second;
          if (speed >= 100 && speed <= 20000) { continue; }
          warn(text(
@@ -108,17 +136,32 @@ Index assembled_at(const LoadHistory &history, const JointCase &joint,
    return at >= 0 ? at : cycle_start >= 0 ? cycle_start : points - 1;
 }
 
-void joint_study(Study &study)
+/// Draws which share of the loss each node of a surface has, per area. Nodes that lose nothing
+/// are shown as stick.
+void map_of_losses(Study &study, const Reduction &reduction, Index mode,
+                   const std::string &title, const InterfaceReport &face, const ModalLoop &loop)
 {
-   CaseOfJoint options(study);
-   ModalCurves curves(study);
-   study.parse();
-   curves.check_options();
-   const JointCase joint = options.joint();
-   options.name_units(study, joint);
+   const ReportInSpace::Map map = ReportInSpace::map_of(reduction, face);
+   Panel &panel = study.panel(Panel::Kind::map, "losses_" + std::to_string(mode),
+                              title + ": share of the loss per area at " + face.name,
+                              direction_name(map.across) + study.units.of(0, 1),
+                              direction_name(map.up) + study.units.of(0, 1));
+   for (const auto &triangle : map.triangles)
+   {
+      for (const Index i : triangle)
+      {
+         const double share = loop.node_dissipation[face.first + i] / loop.dissipation;
+         panel.corner(map.flat(face.places.row(i)), share / face.weights[i],
+                      closed(loop.peak.status[face.first + i]), share <= 1e-6);
+      }
+   }
+}
 
+template <class Own>
+void vibrate(Study &study, const CaseOfJoint &options, ModalCurves &curves,
+             const JointCase &joint, Own own)
+{
    // 1. Bodies, reduced to their contact nodes.
-   OwnBodies own = make_own_bodies(joint);
    ReducedProblem &problem = own.scene.problem();
    require(!problem.patterns.empty(), "there is no load: nothing presses the bodies together");
    require(problem.nodes() > 0, "all interfaces are tied: the joint is linear, it has one "
@@ -128,7 +171,12 @@ void joint_study(Study &study)
    study.condensed(own.scene);
 
    // 2. The march to the state about which it vibrates.
-   const LoadHistory history = load_history("history", options.history, problem);
+   LoadHistory history = load_history("history", options.history, problem);
+   for (const auto &[load, with] : joint.go_with)
+   {
+      history.multipliers.row(problem.pattern(load)) =
+         history.multipliers.row(problem.pattern(with));
+   }
    const Index last = history.times.size() - 1;
    require(options.at_point <= last, "option --at-point is ", options.at_point,
            ", the history has the points 0 to ", last);
@@ -141,6 +189,7 @@ void joint_study(Study &study)
    ContactState state = ContactState::virgin(problem);
    MarchSettings settings;
    settings.keep_increments = false;
+   if (joint.in_space()) { settings.increments = options.increments; }
    Watch watch("march");
    settings.monitor = watch.monitor();
    const MarchReport report = own.bolted ? own.bolted->march(opening, state, settings)
@@ -162,7 +211,30 @@ void joint_study(Study &study)
    const Modes modes = curves.report_modes(structure, problem, state, joint);
 
    // 4. Loops of each mode at each amplitude.
-   curves.report_loops(structure, modes, own, joint, state);
+   if (joint.in_space())
+   {
+      curves.draw_losses = [&](Index mode, const std::string &title,
+                               const InterfaceReport &face, const ModalLoop &loop)
+      { map_of_losses(study, own.scene.reduction, mode, title, face, loop); };
+   }
+   curves.report_loops(structure, modes, own.scene, joint, state);
+}
+
+void joint_study(Study &study)
+{
+   CaseOfJoint options(study);
+   ModalCurves curves(study);
+   study.parse();
+   curves.check_options();
+   const JointCase joint = options.joint();
+   options.name_units(study, joint);
+   if (joint.in_space())
+   {
+      require(!study.options().says("check"),
+              "option --check shows plane bodies: leave it out of a case in space");
+      vibrate(study, options, curves, joint, make_bodies_in_space(joint));
+   }
+   else { vibrate(study, options, curves, joint, make_own_bodies(joint)); }
 }
 
 } // namespace

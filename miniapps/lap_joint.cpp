@@ -17,11 +17,14 @@
 //    lap_joint --bolt-positions "-1.2 0 1.2" --lower-thickness 2 --load 0.1 --spacing 0.025
 //    lap_joint --friction 0.8 --load 0.01
 //    lap_joint --friction 0.8 --load 0.03
+//    lap_joint --modes 2 --amplitudes "1e-7 3e-6" --spacing 0.025
 
 #include "common/contact_edges.hpp"
+#include "joint/modal_curves.hpp"
 #include "lap_joint/bolted_loop.hpp"
 
 #include <algorithm>
+#include <cattaneo/contact/vibrating_body.hpp>
 #include <cattaneo/input_error.hpp>
 
 using namespace cattaneo;
@@ -258,6 +261,40 @@ void row(Study &study, Joint &joint, const std::vector<std::vector<int>> &all)
    }
 }
 
+/// The density of steel over its E', in s²/mm².
+constexpr double steel = 7.85e-9 * (1 - 0.3 * 0.3) / 210e3;
+
+/// Modes of the pinched joint without remote load, and their loops.
+void vibrate(Study &study, Joint &joint, ModalCurves &curves, double density,
+             const std::vector<int> &order)
+{
+   ReducedProblem &problem = joint.problem();
+   study.title("Vibration about the pinched state");
+   study.value("density", density, "density over E'", none,
+               density == steel ? "s²/mm² (steel)" : "");
+   ContactState state = ContactState::virgin(problem);
+   MarchSettings settings;
+   settings.keep_increments = false;
+   const LoadHistory history =
+      LoadHistory::through(problem, joint.tightening(order, joint.P0()));
+   const MarchReport report = march(problem, history, state, settings);
+   study.counters += report.counters;
+   if (const int code = exit_code(problem, report); code != 0)
+   {
+      study.code = code;
+      return;
+   }
+   std::vector<VibratingBody> laps;
+   for (const auto &lap : joint.scene.bodies)
+   {
+      laps.push_back(vibrating_body(*lap, {density}));
+   }
+   const VibratingStructure structure(joint.scene.reduction, std::move(laps));
+   const JointCase plane; // without bolts that are springs
+   const Modes modes = curves.report_modes(structure, problem, state, plane);
+   curves.report_loops(structure, modes, joint.scene, plane, state);
+}
+
 void lap_joint(Study &study)
 {
    Joint joint;
@@ -314,6 +351,12 @@ void lap_joint(Study &study)
                 above_up_to(0, 0.1));
    study.options().group("The joint");
    study.option(&options.poisson, "poisson", "Poisson's ratio of both laps.");
+   ModalCurves curves(study, 0, false);
+   double density = steel;
+   study.option(&density, "density",
+                "Mass per volume over E', in s²/t². The default is steel, if t is in mm: for "
+                "t = 1 mm frequencies are in Hz, and they fall as 1/t.",
+                positive);
    study.options().group("More results");
    study.option(&joint.paraview, "paraview",
                 "Folder for ParaView files of the first cycle (one bolt).", Text::folder);
@@ -330,6 +373,11 @@ void lap_joint(Study &study)
    study.only_if(!loads.empty(), {"map-friction", "map-width"}, "goes with --map-load");
    study.only_if(!joint.paraview.empty(), {"frame-intervals"}, "goes with --paraview");
    study.only_if(bolts > 1, {"tightening", "snug"}, "needs several --bolt-positions");
+   study.only_if(
+      curves.modes() > 0,
+      {"amplitudes", "points-of-curve", "amplitude-of", "shown-amplitude", "density"},
+      "goes with --modes");
+   curves.check_options();
    stepping.set(joint.settings);
    joint.settings.stop_at_steady_state = !all_cycles;
    if (frictions.empty()) { frictions = {joint.friction}; }
@@ -355,7 +403,12 @@ void lap_joint(Study &study)
    }
    if (bolts == 1) { single(study, joint); }
    else { row(study, joint, all); }
-   if (!loads.empty()) { sweep(study, joint, loads, frictions, widths); }
+   if (!loads.empty())
+   {
+      sweep(study, joint, loads, frictions, widths);
+      set_friction(joint.problem(), joint.friction);
+   }
+   if (curves.modes() > 0) { vibrate(study, joint, curves, density, all[0]); }
 }
 
 } // namespace

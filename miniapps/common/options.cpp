@@ -84,9 +84,9 @@ nlohmann::ordered_json with_paths(nlohmann::ordered_json structure, const fs::pa
    if (!structure.is_structured()) { return structure; }
    for (auto item = structure.begin(); item != structure.end(); ++item)
    {
-      const bool file =
-         structure.is_object() && item->is_string() &&
-         (item.key() == "mesh" || item.key() == "matrix" || item.key() == "deck");
+      const bool file = structure.is_object() && item->is_string() &&
+                        (item.key() == "mesh" || item.key() == "matrix" ||
+                         item.key() == "deck" || item.key() == "mass");
       *item = file ? nlohmann::ordered_json((folder / item->get<std::string>()).string())
                    : with_paths(*item, folder);
    }

@@ -147,7 +147,7 @@ void check_displacements(const PartInSpace &part)
       });
 }
 
-PartInSpace made_part(Scene &scene, const JointCase &joint, const JointCase::Body &said)
+PartInSpace made_part(BodiesInSpace &own, const JointCase &joint, const JointCase::Body &said)
 {
    PartInSpace part;
    part.said = &said;
@@ -167,11 +167,13 @@ PartInSpace made_part(Scene &scene, const JointCase &joint, const JointCase::Bod
                  " are ignored: contacts, supports and loads are those of the case");
          }
          part.terms = {names.boundary, !said.brick, said.expansion};
-         const std::vector<Material> materials = materials_of(said, mesh, names, false);
+         own.materials.push_back(materials_of(said, mesh, names, false));
+         own.densities.push_back(densities_of(said, mesh, names));
          const int order = said.order > 0 ? said.order : joint.order;
          require(ranks() == 1, "bodies in space are computed on one rank, there are ", ranks(),
                  ": start the program without mpirun");
-         part.body = &scene.add(std::move(mesh), order, materials, Formulation::space);
+         part.body =
+            &own.scene.add(std::move(mesh), order, own.materials.back(), Formulation::space);
          const std::string support = said.source.called("support"),
                            load = said.source.called("load");
          for (const std::string &one : split(said.support, " ;\t\n"))
@@ -374,7 +376,7 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
    std::vector<PartInSpace> parts;
    for (const JointCase::Body &said : joint.bodies)
    {
-      parts.push_back(made_part(own.scene, joint, said));
+      parts.push_back(made_part(own, joint, said));
    }
    for (const JointCase::Bolt &bolt : joint.bolts) { pull_bolt(bolt, joint, parts); }
    std::vector<std::vector<ContactSurface>> of_body(parts.size());

@@ -11,6 +11,8 @@ class OwnHistory;
 struct BodiesInSpace
 {
    Scene scene;
+   std::vector<std::vector<cattaneo::Material>> materials; ///< of each body
+   std::vector<std::vector<double>> densities;             ///< likewise; empty: not given
    double accuracy = 0; ///< estimated relative error of the stiffness, the worst
    std::vector<std::vector<Holding>> holdings;  ///< of each body
    std::optional<cattaneo::BoltedJoint> bolted; ///< for bolts that are tightened to a force

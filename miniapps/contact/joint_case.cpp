@@ -350,9 +350,9 @@ JointCase::Body body_in_space(const Key &key, const std::string &name)
    made.name = name;
    made.source = source(key);
    key.must_not_have_in_space(
-      {"split", "matrix", "deck", "half-plane", "geometry", "thickness"});
-   key.must_be_of({"mesh", "part", "block", "young", "poisson", "order", "expansion", "support",
-                   "load", "guides"});
+      {"split", "matrix", "deck", "mass", "half-plane", "geometry", "thickness"});
+   key.must_be_of({"mesh", "part", "block", "young", "poisson", "density", "order", "expansion",
+                   "support", "load", "guides"});
    require(key.has("mesh") != key.has("block"), key.called(), " has ",
            key.has("mesh") ? "both" : "none", " of the keys mesh and block, must have one");
    if (key.has("mesh")) { made.mesh = key["mesh"].file(); }
@@ -381,6 +381,7 @@ JointCase::Body body_in_space(const Key &key, const std::string &name)
       made.young = key["young"].constants(positive);
       made.poisson = key["poisson"].constants(any);
    }
+   if (key.has("density")) { made.density = key["density"].constants(positive); }
    add_common(made, key);
    require(made.order <= 2, made.source.called("order"), " is ", made.order,
            ", in space it must be 1 or 2");
@@ -403,9 +404,9 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed, bo
    JointCase::Body made;
    made.name = name;
    made.source = source(key);
-   key.must_be_of({"mesh", "part", "split", "matrix", "deck", "half-plane", "young", "poisson",
-                   "density", "order", "geometry", "expansion", "support", "load", "guides",
-                   "thickness"});
+   key.must_be_of({"mesh", "part", "split", "matrix", "deck", "mass", "half-plane", "young",
+                   "poisson", "density", "order", "geometry", "expansion", "support", "load",
+                   "guides", "thickness"});
    const bool is_matrix = key.has("matrix") || key.has("deck");
    const int kinds = key.has("mesh") + is_matrix + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
@@ -420,8 +421,9 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed, bo
    };
    if (key.has("half-plane"))
    {
-      goes_without("half-plane", {"part", "split", "young", "poisson", "density", "order",
-                                  "geometry", "expansion", "support", "guides", "thickness"});
+      goes_without("half-plane",
+                   {"part", "split", "young", "poisson", "density", "mass", "order", "geometry",
+                    "expansion", "support", "guides", "thickness"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
@@ -438,9 +440,11 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed, bo
          {"part", "split", "young", "poisson", "density", "expansion", "guides", "thickness"});
       if (key.has("deck")) { made.deck = key["deck"].file(); }
       made.matrix = key.has("matrix") ? key["matrix"].file() : matrix_of_deck(made.deck);
+      if (key.has("mass")) { made.mass = key["mass"].file(); }
    }
    else
    {
+      goes_without("mesh", {"mass"});
       made.mesh = key["mesh"].file();
       const std::string ending = std::filesystem::path(made.mesh).extension().string();
       if (key.has("part")) { made.part = key["part"].text(); }

@@ -36,6 +36,7 @@ struct JointCase
       Source source;
       std::string mesh, matrix; ///< mesh or matrix; neither for a half-plane or a brick
       std::string deck;         ///< the file with the places of the matrix's nodes, if named
+      std::string mass;         ///< the file with the matrix's mass, if named
       std::string part;         ///< of a mesh that is a deck: instance or set of elements
       std::string split;        ///< a line of Gmsh along which the mesh is cut
       /// Elastic constants: one, one for each attribute, or by the names of groups of elements.

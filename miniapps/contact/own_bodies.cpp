@@ -156,7 +156,11 @@ OwnBodies make_own_bodies(const JointCase &joint)
    if (!units.empty()) { warn(units); }
    if (twists) { own.scene.reduction.add_torsion(condensed_twisting(joint, parts)); }
    complete(own, joint, lines);
-   for (const OwnPart &part : parts) { own.held.push_back(part.held()); }
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      own.held.push_back(parts[b].held());
+      if (auto made = parts[b].vibrating()) { own.vibrating.emplace(b, *std::move(made)); }
+   }
    note_guides(own, joint);
    std::vector<SmoothSides> sides;
    for (const OwnPart &part : parts) { sides.push_back(part.sides()); }

@@ -6,6 +6,7 @@
 #include <cattaneo/fretting/corner.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/joints/bolts.hpp>
+#include <cattaneo/joints/vibration.hpp>
 #include <optional>
 #include <vector>
 
@@ -50,7 +51,9 @@ struct OwnBodies
    /// Estimated relative error of the stiffness; for bodies in series that of the worst body at
    /// most.
    double accuracy = 0;
-   std::vector<HeldBody> held;                  ///< of each body
+   std::vector<HeldBody> held; ///< of each body
+   /// By number: bodies that are matrices with a mass.
+   std::map<std::size_t, cattaneo::VibratingBody> vibrating;
    bool known_elements = true;                  ///< false for a body that is a matrix
    std::optional<cattaneo::BoltedJoint> bolted; ///< for bolts that are tightened to a force
 

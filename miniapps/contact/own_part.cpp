@@ -137,6 +137,19 @@ std::vector<Material> materials_of(JointCase::Body body, const mfem::Mesh &mesh,
    return materials(body, mesh.attributes.Size() ? mesh.attributes.Max() : 1, plane_stress);
 }
 
+std::vector<double> densities_of(JointCase::Body body, const mfem::Mesh &mesh,
+                                 const MeshNames &names)
+{
+   const std::string key = body.source.called("density");
+   by_attribute(body.density, key, mesh, names);
+   const std::size_t attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
+   require(body.density.values.size() < 2 || body.density.values.size() == attributes, key,
+           " has ", body.density.values.size(),
+           " values, must have one, or one for each element attribute of the mesh, 1 to ",
+           attributes);
+   return body.density.values;
+}
+
 OwnPart::OwnPart(OwnBodies &own, const JointCase &joint, int b)
    : joint_(joint), body_(joint.bodies[b])
 {
@@ -199,16 +212,8 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          sides_ = curve_sides(mesh, body_.as_meshed ? 1 : order(), of_sides(b), curves,
                               supported_attributes(support, body_.support, terms_));
          if (!body_.as_meshed) { warn_of_thin_wall(sides_, body_.name, order()); }
-         JointCase::Body made = with_materials(body_, names);
-         own.materials.push_back(materials_of(made, mesh, names, joint_.plane_stress));
-         by_attribute(made.density, body_.source.called("density"), mesh, names);
-         const std::size_t attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
-         const std::vector<double> &densities = made.density.values;
-         require(densities.size() < 2 || densities.size() == attributes,
-                 body_.source.called("density"), " has ", densities.size(),
-                 " values, must have one, or one for each element attribute of the mesh, 1 to ",
-                 attributes);
-         own.densities.push_back(densities);
+         own.materials.push_back(materials_of(body_, mesh, names, joint_.plane_stress));
+         own.densities.push_back(densities_of(body_, mesh, names));
          elastic_ =
             &own.scene.add(std::move(mesh), order(), own.materials.back(), joint_.formulation);
          for (const std::string &one : split(body_.support, " ;\t\n"))
@@ -464,6 +469,12 @@ HeldBody OwnPart::held() const
       for (const Dof &dof : dofs_of(*twisting_)) { made.around.place.push_back(dof.place); }
    }
    return made;
+}
+
+std::optional<VibratingBody> OwnPart::vibrating() const
+{
+   if (!nodal_ || nodal_->M.rows() == 0) { return {}; }
+   return VibratingBody{nodal_->body(), SharedMatrix(nodal_->M)};
 }
 
 void OwnPart::make_of_matrix(NodalStiffness matrix)
@@ -740,7 +751,7 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
 {
    std::map<std::string, std::vector<NodalStiffness>> files;
    std::map<std::string, int> asked;
-   std::map<std::string, std::string> decks; // of the files
+   std::map<std::string, std::string> decks, masses; // of the files
    for (const JointCase::Body &body : joint.bodies)
    {
       if (body.matrix.empty()) { continue; }
@@ -749,11 +760,17 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
       require(deck == body.deck, body.source.called("deck"), " is '", body.deck,
               "', another body of the matrix '", body.matrix, "' has '", deck,
               "', must be the same");
+      const std::string &mass = masses.emplace(body.matrix, body.mass).first->second;
+      require(mass == body.mass, body.source.called("mass"), " is '", body.mass,
+              "', another body of the matrix '", body.matrix, "' has '", mass,
+              "', must be the same");
       if (files.count(body.matrix) == 0)
       {
          try
          {
-            files[body.matrix] = read_stiffness(body.matrix, body.deck).parts();
+            NodalStiffness whole = read_stiffness(body.matrix, body.deck);
+            if (!body.mass.empty()) { read_mass(whole, body.mass); }
+            files[body.matrix] = whole.parts();
          }
          catch (const InputError &error)
          {

@@ -43,6 +43,8 @@ public:
    const cattaneo::SmoothSides &sides() const { return sides_; }
    /// To be called when all loads exist, those of shanks too.
    HeldBody held() const;
+   /// Likewise: a matrix with its mass; none of other bodies.
+   std::optional<cattaneo::VibratingBody> vibrating() const;
    /// Does the case have supports or loads around the axis?
    bool twists() const { return cattaneo::twists(body_.support, body_.load); }
    /// Condenses to the nodes of the body's sides of interfaces, in their order.
@@ -109,6 +111,10 @@ private:
 std::vector<cattaneo::Material> materials_of(JointCase::Body body, const mfem::Mesh &mesh,
                                              const cattaneo::MeshNames &names,
                                              bool plane_stress);
+/// The densities of a body's attributes: none, one for all, or one for each. InputError naming
+/// the key.
+std::vector<double> densities_of(JointCase::Body body, const mfem::Mesh &mesh,
+                                 const cattaneo::MeshNames &names);
 
 /// The displacements that a load prescribes to dofs of a body.
 struct Prescribed

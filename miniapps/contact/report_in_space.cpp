@@ -27,7 +27,7 @@ ReportInSpace::ReportInSpace(Study &study, const JointCase &joint, BodiesInSpace
 {
    for (const InterfaceReport &face : reduction_.interfaces)
    {
-      maps_.push_back(face.tied ? Map() : map_of(face));
+      maps_.push_back(face.tied ? Map() : map_of(reduction_, face));
    }
 }
 
@@ -472,7 +472,8 @@ std::vector<std::array<int, 3>> triangles_of(std::size_t nodes)
 
 } // namespace
 
-ReportInSpace::Map ReportInSpace::map_of(const InterfaceReport &face) const
+ReportInSpace::Map ReportInSpace::map_of(const Reduction &reduction,
+                                         const InterfaceReport &face)
 {
    Map made;
    // The position of each node of the body in the interface.
@@ -480,9 +481,9 @@ ReportInSpace::Map ReportInSpace::map_of(const InterfaceReport &face) const
    std::map<int, Index> row_of;
    for (Index i = 0; i < face.nodes; ++i)
    {
-      row_of[reduction_.problem.dofs(face.first + i, 3 * owner)] = i;
+      row_of[reduction.problem.dofs(face.first + i, 3 * owner)] = i;
    }
-   const ContactSurface &surface = reduction_.bodies[owner].surface;
+   const ContactSurface &surface = reduction.bodies[owner].surface;
    for (const std::vector<Index> &nodes : surface.faces)
    {
       std::vector<Index> rows;

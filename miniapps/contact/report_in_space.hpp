@@ -17,6 +17,20 @@ std::string direction_name(const Eigen::Vector3d &way);
 class ReportInSpace
 {
 public:
+   /// An interface as a map: axes in its mean plane, along the axes of space where these lie in
+   /// it, and triangles of its own nodes.
+   struct Map
+   {
+      Eigen::Vector3d across{1, 0, 0}, up{0, 1, 0};
+      std::vector<std::array<Eigen::Index, 3>> triangles;
+      Eigen::Vector2d flat(const Eigen::Vector3d &x) const
+      {
+         return {across.dot(x), up.dot(x)};
+      }
+   };
+   static Map map_of(const cattaneo::Reduction &reduction,
+                     const cattaneo::InterfaceReport &face);
+
    /// All must outlive it.
    ReportInSpace(Study &study, const JointCase &joint, BodiesInSpace &own);
    /// A state that the march has reached, in this cycle (0: in none).
@@ -55,18 +69,6 @@ private:
    /// Tangential vectors (n × 3) of the nodes of an interface, of two components each.
    Eigen::MatrixX3d tangential(const cattaneo::InterfaceReport &face,
                                const Eigen::VectorXd &components) const;
-   /// An interface as a map: axes in its mean plane, along the axes of space where these lie in
-   /// it, and triangles of its own nodes.
-   struct Map
-   {
-      Eigen::Vector3d across{1, 0, 0}, up{0, 1, 0};
-      std::vector<std::array<Eigen::Index, 3>> triangles;
-      Eigen::Vector2d flat(const Eigen::Vector3d &x) const
-      {
-         return {across.dot(x), up.dot(x)};
-      }
-   };
-   Map map_of(const cattaneo::InterfaceReport &face) const;
    std::string first_body(const cattaneo::InterfaceReport &face) const;
    void report_interfaces(const cattaneo::ContactState &state,
                           const cattaneo::MarchReport &march);

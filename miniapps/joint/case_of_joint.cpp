@@ -11,7 +11,7 @@ CaseOfJoint::CaseOfJoint(Study &study)
 {
    study.options().require_version(2);
    study.options().group("The case, as the program contact reads it");
-   study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
+   study.option(&analysis, "analysis", "plane strain, plane stress, axisymmetric or space.");
    study.option(&thickness, "thickness",
                 "Thickness of plane bodies: forces, masses and energies are those of the whole "
                 "thickness (default: per thickness).",
@@ -48,20 +48,20 @@ CaseOfJoint::CaseOfJoint(Study &study)
                 at_least(-1));
    study.option(&cycles, "cycles", "Cycles of the program contact; not used here.",
                 at_least(1));
-   study.option(&increments, "increments", "Increments of the program contact; not used here.",
-                at_least(1));
+   study.option(
+      &increments, "increments",
+      "In space: increments between two points of the history. In the plane and about an "
+      "axis the march is exact.",
+      at_least(1));
 }
 
 JointCase CaseOfJoint::joint() const
 {
-   const JointCase made =
-      joint_case({analysis, structure("bodies", bodies), structure("interfaces", interfaces),
-                  structure("bolts", bolts), structure("points", points),
-                  structure("units", units), geometry, thickness},
-                 order);
-   require(!made.in_space(), "key 'analysis' is '", analysis,
-           "', must be plane strain, plane stress or axisymmetric for the program joint");
-   return made;
+   return joint_case({analysis, structure("bodies", bodies),
+                      structure("interfaces", interfaces), structure("bolts", bolts),
+                      structure("points", points), structure("units", units), geometry,
+                      thickness},
+                     order);
 }
 
 void CaseOfJoint::name_units(Study &study, const JointCase &joint) const

@@ -20,7 +20,7 @@ namespace
 
 const double pi = std::acos(-1.0);
 /// The damping ratio below which no node slips.
-constexpr double round_off = 1e-9;
+constexpr double no_slip = 1e-9;
 
 /// "1e-7 … 1e-4" (or ... or to) in equal ratios, or a list of numbers.
 std::vector<double> amplitudes(const std::string &words, int count)
@@ -50,25 +50,28 @@ std::vector<double> amplitudes(const std::string &words, int count)
 }
 
 /// The length of the displacement of a place per unit of the amplitude of a mode.
-double displacement_at(const OwnBodies &own, const JointCase &joint, const Modes &modes,
+double displacement_at(const Scene &scene, const JointCase &joint, const Modes &modes,
                        std::size_t mode, const JointCase::Point &point)
 {
+   std::size_t meshes = 0;
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
+      if (!joint.bodies[b].matrix.empty()) { continue; } // its elements are not known
+      const std::size_t mesh = meshes++;
       if (point.body >= 0 && point.body != static_cast<int>(b)) { continue; }
-      mfem::DenseMatrix place(2, 1);
-      place(0, 0) = point.at[0];
-      place(1, 0) = point.at[1];
+      const int dimension = scene.meshes[mesh]->Dimension();
+      mfem::DenseMatrix place(dimension, 1);
+      for (int c = 0; c < dimension; ++c) { place(c, 0) = point.at[c]; }
       mfem::Array<int> elements;
       mfem::Array<mfem::IntegrationPoint> within;
-      own.scene.meshes[b]->FindPoints(place, elements, within, false);
+      scene.meshes[mesh]->FindPoints(place, elements, within, false);
       if (elements[0] < 0) { continue; }
-      mfem::GridFunction field(&own.scene.bodies[b]->space());
+      mfem::GridFunction field(&scene.bodies[mesh]->space());
       const VectorXd &shape = modes.shapes[mode][b];
       mfem::Vector dofs(static_cast<int>(shape.size()));
       std::copy(shape.begin(), shape.end(), dofs.begin());
       field.SetFromTrueDofs(dofs);
-      mfem::Vector moved(2);
+      mfem::Vector moved(dimension);
       field.GetVectorValue(elements[0], within[0], moved);
       return moved.Norml2();
    }
@@ -127,14 +130,14 @@ double default_size(FrictionSolver &solver, const ReducedProblem &problem,
 
 /// Draws the loss by friction at each node, along each interface that loses a hundredth or
 /// more.
-void draw_losses(Panel &panel, const std::string &label,
-                 const std::vector<InterfaceReport> &faces, const ModalLoop &loop)
+void draw_along(Panel &panel, const std::string &label,
+                const std::vector<InterfaceReport> &faces, const ModalLoop &loop)
 {
    for (const InterfaceReport &face : faces)
    {
       if (face.tied || face.position.rows() == 0) { continue; }
       const VectorXd lost = loop.node_dissipation.segment(face.first, face.nodes);
-      if (!(lost.sum() >= 0.01 * loop.dissipation) || loop.zeta < round_off) { continue; }
+      if (!(lost.sum() >= 0.01 * loop.dissipation) || loop.zeta < no_slip) { continue; }
       VectorXd along = VectorXd::Zero(face.nodes);
       for (Index i = 1; i < face.nodes; ++i)
       {
@@ -179,26 +182,33 @@ std::string with_slope(const std::string &name, double slope)
 
 } // namespace
 
-ModalCurves::ModalCurves(Study &study) : study_(study)
+ModalCurves::ModalCurves(Study &study, int modes, bool points) : study_(study), modes_(modes)
 {
    study.options().group("Modes and amplitudes");
-   study.option(&modes_, "modes", "Number of modes, from the lowest one on.", at_least(1));
+   study.option(&modes_, "modes",
+                modes > 0 ? "Number of modes, from the lowest one on."
+                          : "Number of modes about the state without remote load, from the "
+                            "lowest one on (0: none).",
+                at_least(std::min(modes, 1)));
    study.option(
       &amplitudes_, "amplitudes",
       "Amplitudes, as a range in equal ratios, '1e-7 … 1e-4' (or ... in its place), or a "
       "list. Default: a range of a thousand, which ends where a tenth of the frequency is "
       "lost or the joint slides or ratchets.");
    study.option(&count_, "points-of-curve", "Number of amplitudes in a range.", at_least(2));
-   study.option(
-      &kind_, "amplitude-of",
-      "Kind of the amplitudes: modal (half of the range of φᵀ M x), energy (½ α q, of "
-      "the spring of the secant stiffness), or point (the displacement of the glued "
-      "mode at the point of --amplitude-at).",
-      {"modal", "energy", "point"});
+   const char *without = "Kind of the amplitudes: modal (half of the range of φᵀ M x) or "
+                         "energy (½ α q, of the spring of the secant stiffness).",
+              *with = "Kind of the amplitudes: modal (half of the range of φᵀ M x), energy "
+                      "(½ α q, of the spring of the secant stiffness), or point (the "
+                      "displacement of the glued mode at the point of --amplitude-at).";
+   std::vector<std::string> kinds = {"modal", "energy"};
+   if (points) { kinds.emplace_back("point"); }
+   study.option(&kind_, "amplitude-of", points ? with : without, kinds);
    study.option(&shown_, "shown-amplitude",
                 "Amplitude whose loop and losses along the interfaces are drawn: the nearest "
                 "one of the list (default: the largest).",
                 positive);
+   if (!points) { return; }
    study.option(&at_, "amplitude-at",
                 "Name of a point of the case: its displacement is in the table, and with "
                 "--amplitude-of point amplitudes are displacements there.");
@@ -218,7 +228,8 @@ Modes ModalCurves::report_modes(const VibratingStructure &structure,
                                 const JointCase &joint)
 {
    const double mass = structure.mass();
-   const bool plane = joint.formulation == Formulation::plane;
+   const bool plane = joint.formulation == Formulation::plane,
+              axis = joint.formulation == Formulation::axisymmetric;
    study_.value("total_mass", mass,
                 plane && study_.units.per_thickness ? "total mass, per thickness"
                                                     : "total mass");
@@ -235,17 +246,21 @@ Modes ModalCurves::report_modes(const VibratingStructure &structure,
       "   %ld contact nodes are glued, %d of them at the limit of friction, and %d are open",
       static_cast<long>(problem.nodes() - open), limit, open));
    if (modes.rigid > 0) { study_.say(text("   %d rigid motions are left out", modes.rigid)); }
-   ResultTable &table = study_.table(
-      "modes", {{"mode", "mode"},
-                {"frequency", "frequency [1/time]", "%.6g"},
-                {"omega"},
-                {"residual", "residual", "%.1e"},
-                {"effective_mass_x", plane ? "mass moved in x, of 1" : "", "%.4f"},
-                {"effective_mass_y", plane ? "in y" : "mass moved in z, of 1", "%.4f"}});
+   std::vector<Column> columns = {
+      {"mode", "mode"},
+      {"frequency", "frequency [1/time]", "%.6g"},
+      {"omega"},
+      {"residual", "residual", "%.1e"},
+      {"effective_mass_x", axis ? "" : "mass moved in x, of 1", "%.4f"},
+      {"effective_mass_y", axis ? "mass moved in z, of 1" : "in y", "%.4f"}};
+   if (joint.in_space()) { columns.push_back({"effective_mass_z", "in z", "%.4f"}); }
+   ResultTable &table = study_.table("modes", columns);
    for (Index k = 0; k < modes.omega.size(); ++k)
    {
-      study_.row(table, {k + 1, modes.omega[k] / (2 * pi), modes.omega[k], modes.residuals[k],
-                         modes.effective_mass(k, 0) / mass, modes.effective_mass(k, 1) / mass});
+      std::vector<ordered_json> row = {k + 1, modes.omega[k] / (2 * pi), modes.omega[k],
+                                       modes.residuals[k]};
+      for (const double moved : modes.effective_mass.row(k)) { row.emplace_back(moved / mass); }
+      study_.row(table, row);
    }
    return modes;
 }
@@ -258,7 +273,7 @@ double ModalCurves::drawn_size(const ModalLoop &loop, double at_point) const
 }
 
 void ModalCurves::report_loops(const VibratingStructure &structure, const Modes &modes,
-                               const OwnBodies &own, const JointCase &joint,
+                               const Scene &scene, const JointCase &joint,
                                const ContactState &reached)
 {
    // 1. The problem with the loads of the modes.
@@ -275,7 +290,7 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
            "', which is no point of the case (key 'points')");
 
    // 2. The table and the figure.
-   const std::vector<InterfaceReport> &faces = own.scene.reduction.interfaces;
+   const std::vector<InterfaceReport> &faces = scene.reduction.interfaces;
    ResultTable &table = study_.table(
       "loops", {{"mode", "mode"},
                 {"amplitude", "amplitude", "%.4g"},
@@ -325,12 +340,15 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
    // 3. Mode after mode.
    ModalLoopSettings settings;
    settings.size = kind_ == "energy" ? LoopSize::energy : LoopSize::amplitude;
-   settings.tolerance = 1e-3;
+   // In space each trial takes many increments. A loop of nearly the requested amplitude is a
+   // point of the same curve, and the table has its own amplitude.
+   settings.tolerance = joint.in_space() ? 0.02 : 1e-3;
+   settings.march.increments = 8; // in space, where they are doubled as needed
    for (Index k = 0; k < modes.omega.size(); ++k)
    {
       const std::string name = "mode " + std::to_string(k + 1);
       const double glued = modes.omega[k],
-                   at_point = point ? displacement_at(own, joint, modes,
+                   at_point = point ? displacement_at(scene, joint, modes,
                                                       static_cast<std::size_t>(k), *point)
                                     : none;
       require(kind_ != "point" || at_point > 0, "mode ", k + 1, " does not move the point '",
@@ -377,7 +395,7 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
             warn(name + text(", amplitude %g: ", its) + loop.message + where);
          }
          row(table, loop, its,
-             {k + 1, glued, at_point, known,
+             {k + 1, glued, at_point, known, joint.in_space(),
               known ? bolt_forces(problem, state, loop, joint) : ordered_json::object()},
              faces);
          if (!known) { continue; }
@@ -396,7 +414,7 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
       std::vector<double> lost_drawn = lost, zeta_drawn = zeta;
       for (std::size_t j = 0; j < x.size(); ++j)
       {
-         if (zeta_drawn[j] < round_off) { zeta_drawn[j] = none; }
+         if (zeta_drawn[j] < no_slip) { zeta_drawn[j] = none; }
          if (lost_drawn[j] < 1e-6) { lost_drawn[j] = none; }
       }
       const double zeta_slope = slope(x, zeta_drawn), lost_slope = slope(x, lost_drawn);
@@ -411,7 +429,19 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
       {
          loops.point(label, one.amplitude / drawn.amplitude, one.force / drawn.force);
       }
-      draw_losses(map, label, faces, drawn);
+      if (!joint.in_space()) { draw_along(map, label, faces, drawn); }
+      else if (draw_losses && drawn.zeta >= no_slip)
+      {
+         const auto lost_by = [&](const InterfaceReport &face) {
+            return face.tied ? 0.0
+                             : drawn.node_dissipation.segment(face.first, face.nodes).sum();
+         };
+         draw_losses(k + 1, label,
+                     *std::max_element(faces.begin(), faces.end(),
+                                       [&](const auto &a, const auto &b)
+                                       { return lost_by(a) < lost_by(b); }),
+                     drawn);
+      }
    }
 }
 
@@ -423,7 +453,7 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
    std::string most_at;
    double most = 0;
    int slipping = 0;
-   const bool slips = loop.zeta >= round_off; // below that it is the round-off of the state
+   const bool slips = loop.zeta >= no_slip; // below that it is the round-off of the state
    for (const InterfaceReport &face : faces)
    {
       if (face.tied || !of.known) { continue; }
@@ -455,6 +485,13 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
    // 3. The row.
    const bool slides = std::isfinite(loop.sliding_force);
    const auto or_none = [&](double value) { return of.known ? value : none; };
+   ordered_json more = {
+      {"interfaces", interfaces}, {"bolts", of.bolts}, {"message", loop.message}};
+   if (of.by_increments)
+   {
+      more["omega_error_estimate"] = or_none(loop.omega_error);
+      more["zeta_error_estimate"] = or_none(loop.zeta_error);
+   }
    study_.row(table,
               {of.mode,
                of.known ? loop.amplitude : size,
@@ -482,7 +519,7 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
                loop.change,
                loop.ratchet,
                loop.sliding_force},
-              {}, {{"interfaces", interfaces}, {"bolts", of.bolts}, {"message", loop.message}});
+              {}, more);
 }
 
 } // namespace miniapp

@@ -1,8 +1,12 @@
 """Frequency and damping of a joint against amplitude: the table, its outcomes, and what is refused."""
 
 import math
+import shutil
+import subprocess
 
-from programs import changed, near, near_relative, shipped
+import pytest
+
+from programs import ROOT, changed, near, near_relative, shipped
 
 STEEL = 7.85e-9
 
@@ -55,6 +59,111 @@ def test_it_is_said_where_units_cannot_be(run):
                                             "--modes", 1, "--amplitudes", "1e-7", program="joint").warned()
 
 
-def test_bodies_in_space_are_refused(run):
-    error = run.case(shipped("sphere_on_block"), program="joint", code=1).error
-    assert "key 'analysis' is 'space', must be plane strain, plane stress or axisymmetric" in error, error
+def column(friction=0.8, density=0.7, poisson=0.0):
+    """A column of E = 2 in space, of two blocks that a pressure on top holds together at z = 1, on a held bottom."""
+    def block(z, cells, **more):
+        return {"block": {"x": {"points": [0, 1], "cells": 3}, "y": {"points": [0, 0.8], "cells": 2}, "z": {"points": z, "cells": cells}},
+                "young": 2, "poisson": poisson, "density": density, **more}
+    return {"analysis": "space", "order": 1,
+            "bodies": {"high": block([1, 2.5], 3, load="P pressure top 1e-3"), "low": block([0, 1], 2, support="bottom:xyz")},
+            "interfaces": {"seam": {"between": ["high:bottom", "low:top"], "friction": friction}},
+            "points": {"tip": [0.5, 0.4, 2.5]}, "history": ["P=0", "P=1"]}
+
+
+def test_a_column_in_space_vibrates_as_a_rod(run):
+    """Without Poisson's ratio five equal elements on end have their mode along z in closed form."""
+    got = run.case(column(), "--modes", 5, "--amplitudes", "1e-9 1e-7", program="joint")
+    near_relative(got["total_mass"], 0.7 * 2.5 * 0.8, 1e-12)
+    assert got["rigid_modes_left_out"] == 0 and got["nodes_glued"] == 12 and got["nodes_open"] == 0
+    h, k = 0.5, math.pi / (2 * 2.5)
+    omega = math.sqrt(6 / h**2 * 2 / 0.7 * (1 - math.cos(k * h)) / (2 + math.cos(k * h)))
+    [along] = [mode for mode in got["modes"] if mode["effective_mass_z"] > 0.5]
+    near_relative(along["omega"], omega, 1e-8)
+    # Of a continuous rod it is 8/π².
+    near(along["effective_mass_z"], 8 / math.pi**2, 0.02)
+    near(along["effective_mass_x"] + along["effective_mass_y"], 0, 1e-9)
+    for way in "xyz":
+        assert sum(mode[f"effective_mass_{way}"] for mode in got["modes"]) <= 1
+    for mode in got["modes"]:
+        for loop in rows(got, mode["mode"]):
+            assert loop["status"] == "converged" and loop["zeta"] < 1e-9
+            near_relative(loop["omega"], mode["omega"], 1e-6)
+
+
+def test_a_column_in_space_loses_work_where_it_slips(run):
+    got = run.case(column(friction=0.3, poisson=0.3), "--modes", 1, "--amplitudes", "5e-3", "--amplitude-at", "tip",
+                   "--csv", run.folder / "out", program="joint")
+    [row] = got["loops"]
+    [mode] = got["modes"]
+    assert row["status"] == "converged" and row["omega"] < 0.999 * mode["omega"] and row["zeta"] > 1e-4
+    near_relative(row["amplitude"], 5e-3, 0.02)
+    # The mode moves the tip by its own length: the modal mass is 1.
+    assert row["amplitude"] / math.sqrt(got["total_mass"]) < row["at_point"] < 3 * row["amplitude"] / math.sqrt(got["total_mass"])
+    square = 2 * math.pi * (row["omega"] * row["amplitude"])**2
+    near_relative(row["zeta"], row["dissipation"] / square, 1e-9)
+    near(row["area"], row["dissipation"], square * row["zeta_error_estimate"])
+    near_relative(sum(row["interfaces"]["seam"]["node_losses"]), row["dissipation"], 1e-12)
+    assert row["zeta_error_estimate"] <= 0.02 * row["zeta"] and row["omega_error_estimate"] <= 0.002 * row["omega"]
+    # Where it loses is drawn as a map.
+    assert (run.folder / "out_losses_1.csv").exists()
+
+
+def test_bolts_in_space_lose_force(run):
+    """Two plates and a bolt through the middle of them, which bend together."""
+    def plate(z, **more):
+        return {"block": {"x": {"points": [-3, -1, 1, 3], "cells": [2, 2, 2]}, "y": {"points": [-1, 1], "cells": 2},
+                          "z": {"points": z, "cells": 2}},
+                "young": 200, "poisson": 0.3, "density": 1e-3, **more}
+    case = {"analysis": "space", "order": 1,
+            "bodies": {"high": plate([0, 0.5]), "low": plate([-0.5, 0], support="left:xyz")},
+            "interfaces": {"seam": {"between": ["high:bottom", "low:top"], "friction": 0.3}},
+            "bolts": {"B": {"between": ["high:top", "low:bottom"], "stiffness": 20, "preload": 0.5}}, "history": ["B=0", "B=1"]}
+    got = run.case(case, "--modes", 1, "--amplitudes", "1e-6 1e-3", program="joint")
+    small, large = got["loops"]
+    near_relative(small["omega"], got["modes"][0]["omega"], 1e-6)
+    near_relative(small["bolts"]["B"]["force"], 0.5, 1e-9)
+    near(small["bolts"]["B"]["lost"], 0, 1e-6)
+    assert large["zeta"] > 1e-6 and large["bolts"]["B"]["least"] < 0.5
+
+
+def test_obstacles_free_to_move_have_no_mass(run):
+    case = changed(shipped("sphere_on_block"), {"bodies.block.density": STEEL})
+    error = run.case(case, program="joint", code=1).error
+    assert "no obstacle may be free to move, since it has no mass" in error, error
+
+
+def test_matrices_with_a_mass(run):
+    """The laps of CalculiX, whose stiffness and mass ccx writes now."""
+    case = shipped("calculix/laps")
+    error = run.case(case, program="joint", code=1).error
+    assert "key 'bodies.upper.mass' is missing" in error, error
+    if shutil.which("ccx") is None:
+        pytest.skip("there is no ccx (Debian: calculix-ccx)")
+    shutil.copy(ROOT / "meshes" / "calculix" / "laps.inp", run.folder)
+    subprocess.run(["ccx", "laps"], cwd=run.folder, check=True, capture_output=True, timeout=100)
+    for name in ("upper", "lower"):
+        case["bodies"][name] |= {"matrix": "laps.sti", "mass": "laps.mas"}
+    got = run.case(case, "--modes", 2, "--amplitudes", "1e-9", "--at-point", 1, program="joint")
+    # Held nodes have no rows. They are at the end of elements 0.125 wide, of which they have the mass ∫(1 - (x/h)²).
+    near_relative(got["total_mass"], 7.8e-9 * 0.5 * (4 - 0.125 * 2 / 3), 1e-6)
+    for mode in got["modes"]:
+        [loop] = rows(got, mode["mode"])
+        near_relative(loop["omega"], mode["omega"], 1e-6)
+    # Four times the mass at half of the frequencies.
+    lines = [line.split() for line in run.text("laps.mas").splitlines()]
+    run.write("laps.mas", "".join(f"{i} {j} {4 * float(value):.14e}\n" for i, j, value in lines))
+    slow = run.case(case, "--modes", 2, "--amplitudes", "1e-9", "--at-point", 1, program="joint")
+    for one, other in zip(slow["modes"], got["modes"]):
+        near_relative(one["omega"], other["omega"] / 2, 1e-6)
+    case["bodies"]["lower"]["mass"] = "other.mas"
+    error = run.case(case, program="joint", code=1).error
+    assert "key 'bodies.lower.mass' is" in error and "must be the same" in error, error
+
+
+def test_a_load_of_forces_and_displacements_moves_both(run):
+    """The displacements of such a load go with its forces to the point about which the joint vibrates."""
+    case = changed(shipped("bolted_joint"), {"bodies.lower.support": "end:x", "history": ["Q=0", "bolt=1", "Q=1"]})
+    case["bodies"]["lower"]["load"] = "Q displacement-y end 1e-4"
+    got = run.case(case, "--modes", 1, "--amplitudes", "1e-9", "--at-point", 2, program="joint")
+    loads = got["loads"]
+    assert loads["Q"] == 1 and loads["Q.moved"] == 1, loads

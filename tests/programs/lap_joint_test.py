@@ -2,6 +2,7 @@
 
 import math
 
+import numpy
 import pytest
 
 from programs import near, near_relative
@@ -130,3 +131,44 @@ def test_order_of_tightening_matters_only_for_unequal_laps(run):
         assert same["residual_shear"] < 1e-3
         assert other["residual_shear"] > 1e-2
     assert unequal["counters"]["factorisations"] == 2
+
+
+def beam(x, height, mass, count):
+    """Circular frequencies of a beam of E' = 1 and density 1 between simple supports at its ends, by cubic elements between x."""
+    n = len(x)
+    K, M = numpy.zeros((2 * n, 2 * n)), numpy.zeros((2 * n, 2 * n))
+    for k in range(n - 1):
+        h, at = x[k + 1] - x[k], slice(2 * k, 2 * k + 4)
+        K[at, at] += height[k]**3 / 12 / h**3 * numpy.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h**2, -6 * h, 2 * h**2],
+                                                             [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h**2, -6 * h, 4 * h**2]])
+        M[at, at] += mass[k] * h / 420 * numpy.array([[156, 22 * h, 54, -13 * h], [22 * h, 4 * h**2, 13 * h, -3 * h**2],
+                                                      [54, 13 * h, 156, -22 * h], [-13 * h, -3 * h**2, -22 * h, 4 * h**2]])
+    free = [i for i in range(2 * n) if i not in (0, 2 * n - 2)]
+    L = numpy.linalg.inv(numpy.linalg.cholesky(M[numpy.ix_(free, free)]))
+    return numpy.sqrt(numpy.linalg.eigvalsh(L @ K[numpy.ix_(free, free)] @ L.T))[:count]
+
+
+def test_modes_are_those_of_a_beam(run):
+    """The laps between the supports are beams of t/2, where they are pinched one of t. Free ends of the overlap add their mass."""
+    density = 4.0
+    got = run("lap_joint", "--spacing", 0.05, "--modes", 2, "--amplitudes", "1 30", "--density", density)
+    near_relative(got["total_mass"], density * 2 * (16 + 1.95) * 0.5, 1e-12)
+    assert got["rigid_modes_left_out"] == 1  # along x
+    a = got["a0"]
+    x = numpy.concatenate([numpy.linspace(-16, -1.95, 40), [-a, 0, a], numpy.linspace(1.95, 16, 40)])
+    middle = abs(x[1:] + x[:-1]) / 2
+    height, mass = numpy.where(middle < a, 1, 0.5), density * numpy.where(middle < 1.95, 1, 0.5)
+    for mode, omega in zip(got["modes"], beam(x, height, mass, 2)):
+        near_relative(mode["omega"], omega, 0.03)
+        small, large = (row for row in got["loops"] if row["mode"] == mode["mode"])
+        near_relative(small["omega"], mode["omega"], 1e-6)
+        assert small["zeta"] < 1e-9 and small["status"] == large["status"] == "converged"
+    # A larger bending of the first mode opens and closes the edges of contact, where nodes then slip.
+    large = got["loops"][1]
+    assert large["zeta"] > 1e-5 and large["omega"] < (1 - 1e-4) * got["modes"][0]["omega"]
+    near_relative(large["area"], large["dissipation"], 2e-9)
+    # Steel, said in the output, has frequencies in Hz for t = 1 mm.
+    steel = run("lap_joint", "--spacing", 0.05, "--modes", 1, "--amplitudes", 1e-7)
+    near_relative(steel["density"], 7.85e-9 * 0.91 / 210e3, 1e-12)
+    near_relative(steel["modes"][0]["omega"], got["modes"][0]["omega"] * math.sqrt(density / steel["density"]), 1e-8)
+    run.refuses("lap_joint", ["--density", 1], ["option --density does nothing in this run", "goes with --modes"])

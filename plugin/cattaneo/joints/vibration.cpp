@@ -300,7 +300,8 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
    const ContactMotions contact = contact_motions(reduction);
    Parts &parts = *parts_;
    parts.bodies = std::move(bodies);
-   int own = 0; // coordinates that do not belong to the contact
+   int own = 0;            // coordinates that do not belong to the contact
+   std::vector<int> first; // of each body
    for (std::size_t b = 0; b < parts.bodies.size(); ++b)
    {
       const AssembledBody &body = parts.bodies[b].body;
@@ -316,21 +317,15 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
       {
          if (dof >= 0) { taken[dof] = true; }
       }
+      first.push_back(own);
       own += static_cast<int>(std::count(taken.begin(), taken.end(), false) +
                               static_cast<long>(body.blocks.size()));
    }
    const int columns = own + contact.coordinates;
    parts.K = parts.M = RowMatrix(columns, columns);
-   int first = 0;
    for (std::size_t b = 0; b < parts.bodies.size(); ++b)
    {
-      parts.add_body(reduction, contact, b, first, columns);
-      const AssembledBody &body = parts.bodies[b].body;
-      std::vector<bool> taken(body.K.size(), false);
-      for (int dof : body.fixed) { taken[dof] = true; }
-      for (int dof : contact_dofs_of(reduction.bodies[b])) { taken[dof] = true; }
-      first += static_cast<int>(std::count(taken.begin(), taken.end(), false) +
-                                static_cast<long>(body.blocks.size()));
+      parts.add_body(reduction, contact, b, first[b], columns);
    }
    for (const Bolt &bolt : shanks) { parts.add_shank(reduction, bolt); }
 
