@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cattaneo/friction/changing_nodes.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/joints/modal_loop.hpp>
 #include <cmath>
@@ -80,7 +81,12 @@ double half_range(const std::vector<LoopPoint> &points)
 class Cycles
 {
 public:
-   Cycles(double tolerance, bool exact) : tolerance_(tolerance), exact_(exact) {}
+   /// @param share  of the loss of the cycle, over force times range: a smaller change counts
+   ///               as none
+   Cycles(double tolerance, double share, bool exact)
+      : tolerance_(tolerance), share_(share), exact_(exact)
+   {
+   }
 
    /// A cycle begins at a state.
    void begin(const ContactState &state, const LoopPoint &point)
@@ -126,8 +132,10 @@ public:
       const double round_off =
          1e-12 * std::abs(points[0].force) * half_range(points) +
          1e-13 * to[0].lpNorm<Eigen::Infinity>() * to[1].lpNorm<Eigen::Infinity>();
-      steady = left <= tolerance_ && (!exact_ || std::abs(work_along(points) - loss_) <=
-                                                    tolerance_ * loss_ + round_off);
+      const double allowed = std::max(
+         tolerance_, share_ * loss_ / (std::abs(points[0].force) * half_range(points)));
+      steady = left <= allowed && (!exact_ || std::abs(work_along(points) - loss_) <=
+                                                 tolerance_ * loss_ + round_off);
       // 4. The same displacements are added in each cycle, while forces repeat.
       const VectorXd drift = to[0] - from[0];
       ratchets = !steady && changes[1] <= tolerance_ && changes[0] > 1e-6 &&
@@ -171,6 +179,9 @@ public:
       state.p += forces.tail(state.p.size());
    }
 
+   /// At which the present cycle began, or the last one if it has ended.
+   const ContactState &start() const { return begin_; }
+
    std::vector<LoopPoint> points; ///< of the present cycle
    int count = 0;                 ///< ended ones
    double change = 0;             ///< of the last cycle, relative to its range
@@ -211,7 +222,7 @@ private:
       }
    }
 
-   double tolerance_;
+   double tolerance_, share_;
    bool exact_;
    double loss_ = 0;
    ContactState begin_;
@@ -243,10 +254,11 @@ class Swings
 {
 public:
    /// @param increments  of each half of a cycle, if there is no exact path
-   Swings(FrictionSolver &solver, const ReducedProblem &problem, Index load,
-          const ModalLoopSettings &settings, int increments)
-      : solver_(solver), problem_(problem), load_(load), settings_(settings),
-        march_(settings.march)
+   /// @param share       see Cycles
+   Swings(ChangingNodes &nodes, const ReducedProblem &problem, Index load,
+          const ModalLoopSettings &settings, int increments, double share = 0)
+      : nodes_(nodes), problem_(problem), load_(load), settings_(settings),
+        march_(settings.march), share_(share)
    {
       march_.increments_of_piece.clear();
       march_.every_event = march_.stepping == Stepping::exact && problem_.components() < 2;
@@ -264,19 +276,19 @@ public:
                     const std::function<double(double, double)> &off) const
    {
       Swing made;
-      Cycles cycles(settings_.steady_tolerance, exact());
-      for (bool opens = state.multipliers[load_] != force;; opens = false)
+      Cycles cycles(settings_.steady_tolerance, exact() ? 0 : share_, exact());
+      while (true)
       {
          // 1. March until a cycle repeats, or until the limit of the cycles can be foreseen.
+         const bool opens = state.multipliers[load_] != force;
          make_ready(state);
          cycles.begin(state, point(state));
          const double start = opens ? 1 : 0;
          std::atomic<bool> stop{settings_.march.monitor.stopped()};
          MarchSettings march = march_;
          march.monitor.stop = &stop;
-         const MarchReport report = cattaneo::march(
-            solver_, history(state, force, opens, settings_.cycles - cycles.count), state,
-            march,
+         const MarchReport report = nodes_.march(
+            history(state, force, opens, settings_.cycles - cycles.count), state, march,
             [&](const ContactState &now, const IncrementRecord &record)
             {
                if (settings_.march.monitor.stopped()) { stop = true; }
@@ -300,6 +312,11 @@ public:
                }
                else if (cycles.count < settings_.cycles) { cycles.begin(now, here); }
             });
+         if (nodes_.repeats())
+         {
+            state = cycles.start();
+            continue;
+         }
          // 2. Has a stop been requested, or is there no equilibrium?
          made.status = report.not_unique ? FrictionStatus::not_unique : report.status;
          made.message = report.not_unique ? report.not_unique->message : report.message;
@@ -333,16 +350,18 @@ public:
    /// The first loading to the force of a loop, for comparison.
    void compare(const ContactState &from, ModalLoop &loop) const
    {
-      ContactState state = from;
-      make_ready(state);
-      std::vector<LoopPoint> points{{0, 0}};
-      const LoopPoint start = point(state);
-      LoadHistory opening = history(state, loop.force, true, 0);
-      march(solver_, opening, state, march_,
-            [&](const ContactState &, const IncrementRecord &record) {
-               points.push_back(
-                  {record.multipliers[load_], record.conjugates[load_] - start.amplitude});
-            });
+      std::vector<LoopPoint> points;
+      do {
+         ContactState state = from;
+         make_ready(state);
+         points.assign(1, {0, 0});
+         const LoopPoint start = point(state);
+         nodes_.march(history(state, loop.force, true, 0), state, march_,
+                      [&](const ContactState &, const IncrementRecord &record) {
+                         points.push_back({record.multipliers[load_],
+                                           record.conjugates[load_] - start.amplitude});
+                      });
+      } while (nodes_.repeats());
       // Masing: both branches of the loop are the first curve with twice its size.
       const LoopPoint &end = points.back();
       loop.omega_first = std::sqrt(end.force / end.amplitude);
@@ -409,11 +428,12 @@ private:
       loop.peak = std::move(state);
    }
 
-   FrictionSolver &solver_;
+   ChangingNodes &nodes_;
    const ReducedProblem &problem_;
    Index load_;
    const ModalLoopSettings &settings_;
    MarchSettings march_;
+   double share_;
 };
 
 /// The force of a loop of a size, between one that is too small and one that is too large: by
@@ -495,11 +515,13 @@ class Curve
 public:
    Curve(FrictionSolver &solver, const ReducedProblem &problem, const ContactState &state,
          const std::string &load, double omega, const ModalLoopSettings &settings)
-      : solver_(solver), problem_(problem), state_(state),
-        load_(static_cast<Index>(problem.pattern(load))), settings_(settings), omega_(omega),
-        below_(state),
+      : problem_(problem), state_(state), load_(static_cast<Index>(problem.pattern(load))),
+        settings_(settings), omega_(omega), below_(state), nodes_(solver), first_nodes_(solver),
         // Forces are sought with half of the increments of the result.
-        swings_(solver, problem, load_, settings, std::max(1, settings.march.increments / 2))
+        swings_(nodes_, problem, load_, settings, std::max(1, settings.march.increments / 2),
+                nearly()),
+        first_(first_nodes_, problem, load_, settings,
+               std::max(1, settings.march.increments / 2))
    {
       require(problem.patterns[load_].control == Control::force, "modal loop: the load '", load,
               "' prescribes displacements, must be forces");
@@ -576,7 +598,7 @@ public:
       // 2. Increments are refined, and the first loading is compared.
       if (!swings_.exact() && best.steady) { refine(best); }
       if (!solved(best.status)) { return best; }
-      if (best.force > 0) { swings_.compare(state_, best); }
+      if (best.force > 0) { first_.compare(state_, best); }
       // 3. The frequency at which the next size begins, and the outcome.
       if (best.steady) { foresee(best, size); }
       if (best.force > 0 && !best.steady) { best.message = why_not_steady(best); }
@@ -594,30 +616,47 @@ public:
    }
 
 private:
-   /// The loop is marched again with twice as many increments, until that changes little.
-   void refine(ModalLoop &best) const
+   /// A loop that is compared with another one need not be as steady as the result.
+   double nearly() const { return 0.05 * settings_.increment_error; }
+
+   /// The loop is marched again with twice as many increments, until that changes little, and
+   /// then until it is steady.
+   void refine(ModalLoop &best)
    {
       int increments = std::max(1, settings_.march.increments / 2);
       for (int doubled = 0; doubled < 4; ++doubled)
       {
          increments *= 2;
-         const Swings finer(solver_, problem_, load_, settings_, increments);
-         Swing found =
-            finer.to_and_fro(best.force, best.peak, [](double, double) { return 0.0; });
-         ModalLoop &loop = found.loop;
-         loop.omega_error = std::abs(loop.omega - best.omega);
-         // Nodes that open or close within increments lose work that is not friction's.
-         const double square = std::pow(loop.omega * loop.amplitude, 2),
-                      other = std::abs(loop.area - loop.dissipation) / (2 * pi * square);
-         loop.zeta_error = std::max(std::abs(loop.zeta - best.zeta), other);
-         loop.status = found.status;
-         loop.message = found.message;
-         loop.cycle += best.cycle;
-         best = std::move(loop);
-         const bool little = best.omega_error <= 0.1 * settings_.increment_error * best.omega &&
-                             best.zeta_error <= settings_.increment_error * best.zeta + 1e-9;
-         if (!solved(best.status) || !best.steady || little) { return; }
+         const ModalLoop coarse = best;
+         bool little = false;
+         for (const double share : {nearly(), 0.0})
+         {
+            const Swings finer(nodes_, problem_, load_, settings_, increments, share);
+            Swing found =
+               finer.to_and_fro(best.force, best.peak, [](double, double) { return 0.0; });
+            const int cycles = best.cycle;
+            best = std::move(found.loop);
+            best.cycle += cycles;
+            best.status = found.status;
+            best.message = found.message;
+            little = find_errors(coarse, best);
+            if (!solved(best.status) || !best.steady) { return; }
+            if (!little && doubled < 3) { break; }
+         }
+         if (little) { return; }
       }
+   }
+
+   /// Errors by a loop with half as many increments. Are they small?
+   bool find_errors(const ModalLoop &coarse, ModalLoop &loop) const
+   {
+      loop.omega_error = std::abs(loop.omega - coarse.omega);
+      // Nodes that open or close within increments lose work that is not friction's.
+      const double square = std::pow(loop.omega * loop.amplitude, 2),
+                   other = std::abs(loop.area - loop.dissipation) / (2 * pi * square);
+      loop.zeta_error = std::max(std::abs(loop.zeta - coarse.zeta), other);
+      return loop.omega_error <= 0.1 * settings_.increment_error * loop.omega &&
+             loop.zeta_error <= settings_.increment_error * loop.zeta + 1e-9;
    }
 
    /// The secant frequency changes with the logarithm of the size as between the last two.
@@ -647,16 +686,16 @@ private:
       return message.str();
    }
 
-   FrictionSolver &solver_;
    const ReducedProblem &problem_;
    const ContactState &state_;
    Index load_;
    const ModalLoopSettings &settings_;
    double omega_;                             // at which the next loop begins
    double size_ = 0, secant_ = 0, slope_ = 0; // of the last steady loop
-   ContactState below_; // at the end of the largest loop that was not too large
-   double least_ = 0;   // its force
-   Swings swings_;
+   ContactState below_;                // at the end of the largest loop that was not too large
+   double least_ = 0;                  // its force
+   ChangingNodes nodes_, first_nodes_; // of loops, and of the first loading
+   Swings swings_, first_;
 };
 
 } // namespace
