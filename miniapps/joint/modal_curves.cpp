@@ -20,7 +20,7 @@ namespace
 
 const double pi = std::acos(-1.0);
 /// The damping ratio below which no node slips.
-constexpr double no_slip = 1e-9;
+constexpr double no_slip = 1e-8;
 
 /// "1e-7 … 1e-4" (or ... or to) in equal ratios, or a list of numbers.
 std::vector<double> amplitudes(const std::string &words, int count)
