@@ -8,6 +8,7 @@
 #include "contact/own_part.hpp"
 #include "contact/own_warnings.hpp"
 #include "contact/report_in_space.hpp"
+#include "contact/rims.hpp"
 #include "contact/sketch.hpp"
 
 #include <algorithm>
@@ -429,6 +430,7 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
    }
    own.scene.reduction = reduce(std::move(condensed), interfaces);
    check_overlaps(joint, own.scene.reduction);
+   mark_rims(own.scene, interfaces);
    for (const InterfaceReport &face : own.scene.reduction.interfaces)
    {
       warn_of_left_out(face);

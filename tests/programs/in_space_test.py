@@ -615,6 +615,32 @@ def test_an_interference_is_allowed_by_its_key(run):
     near(run.case(case)["peak_pressure"], 0.1, 1e-12)
 
 
+def test_contact_that_is_cut_off_is_warned_of(run):
+    """A part of a side bears up to its rim although the block and the plane go on beyond it; so it does under a smaller part of another
+    block. Where one of both ends in a corner, a contact may end."""
+    cut = "contact is compressed up to the rim of its surface"
+    case = block("P traction top 0.01 0 -1")
+    assert cut not in run.case(case).warned()
+    case["interfaces"]["floor"]["between"] = "block:bottom[0<x<1.5]"
+    assert cut in run.case(case).warned()
+
+    def one(x, low, cells, **keys):
+        return {"block": brick((x, cells), ([0, 1], 2), ([low, low + 1], 1)), "young": 1, "poisson": 0.3, **keys}
+    for cells in (4, 3):
+        both = {"analysis": "space", "order": 1, "history": ["P=0", "P=1"],
+                "bodies": {"u": one([0, 1], 0, 2, load="P pressure top 0.1"), "l": one([-1, 2], -1, 3 * cells // 2, support="bottom:xyz")},
+                "interfaces": {"f": {"between": ["u:bottom", "l:top"], "friction": 0.3}}}
+        assert cut not in run.case(both).warned(), cells
+    both["bodies"]["l"] = one([-1, 2], -1, 6, support="bottom:xyz")
+    both["interfaces"]["f"]["between"] = ["u:bottom", "l:top[0<x<1]"]
+    assert cut not in run.case(both).warned()
+    both["bodies"]["u"] = one([0, 1], 0, 4, load="P pressure top 0.1")
+    both["interfaces"]["f"]["between"] = ["u:bottom[0.25<x<1]", "l:top[0<x<1]"]
+    assert cut in run.case(both).warned()
+    both["interfaces"]["f"]["between"] = ["u:bottom", "l:top[0<x<0.5]"]
+    assert cut in run.case(both).warned()
+
+
 def test_a_ball_may_be_smaller_than_the_side(run):
     """A ball of radius 3 on a block of 10 × 10: nodes beside it are open, and its force is carried. A rectangle of the side alone, by
     intervals along two axes, has the same pressures."""

@@ -1,0 +1,177 @@
+#include "contact/rims.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Vector3d;
+
+namespace
+{
+
+/// The least cosine of the angle between faces across an edge that is no corner, 30 degrees.
+constexpr double least_cosine = 0.866;
+
+double distance_to(const Vector3d &place, const Vector3d &from, const Vector3d &to)
+{
+   const Vector3d along = to - from;
+   const double share = (place - from).dot(along) / along.squaredNorm();
+   return (place - from - std::clamp(share, 0.0, 1.0) * along).norm();
+}
+
+/// Where a side ends.
+class Rim
+{
+public:
+   Rim(const ElasticBody &body, mfem::Mesh &mesh, const ContactSurface &side) : side_(side)
+   {
+      // 1. Edges of one face only.
+      std::map<Edge, int> count;
+      std::set<std::set<Index>> faces;
+      for (const std::vector<Index> &face : side.faces)
+      {
+         const std::size_t corners = face.size() == 3 || face.size() == 6 ? 3 : 4;
+         faces.insert({face.begin(), face.begin() + static_cast<long>(corners)});
+         for (std::size_t k = 0; k < corners; ++k)
+         {
+            ++count[edge_of(face[k], face[(k + 1) % corners])];
+         }
+      }
+      std::map<int, Index> number; // of a node by its first dof
+      for (Index i = 0; i < side.size(); ++i) { number[side.nodes[i].dofs[0]] = i; }
+      // 2. Outward normals of the faces at these edges, within the side and beyond it.
+      std::map<Edge, Vector3d> rim, beyond;
+      for (int e = 0; e < mesh.GetNBE(); ++e)
+      {
+         mfem::Array<int> vertices, dofs;
+         mesh.GetBdrElementVertices(e, vertices);
+         std::vector<Index> nodes;
+         std::vector<Vector3d> places;
+         for (const int vertex : vertices)
+         {
+            body.space().GetVertexDofs(vertex, dofs);
+            const auto found = number.find(body.true_dof(dofs[0], 0));
+            nodes.push_back(found == number.end() ? -1 : found->second);
+            places.push_back(body.place(dofs[0]));
+         }
+         int element = 0, info = 0;
+         mesh.GetBdrElementAdjacentElement(e, element, info);
+         mfem::Vector middle;
+         mesh.GetElementCenter(element, middle);
+         Vector3d normal = (places[1] - places[0]).cross(places[2] - places[0]).normalized();
+         if (normal.dot(Vector3d(middle[0], middle[1], middle[2]) - places[0]) > 0)
+         {
+            normal = -normal;
+         }
+         const bool within = faces.count({nodes.begin(), nodes.end()}) > 0;
+         for (std::size_t k = 0; k < nodes.size(); ++k)
+         {
+            const Edge edge = edge_of(nodes[k], nodes[(k + 1) % nodes.size()]);
+            const auto found = count.find(edge);
+            if (found == count.end() || found->second != 1) { continue; }
+            (within ? rim : beyond)[edge] = normal;
+         }
+      }
+      std::set<Edge> on; // at which the boundary goes on
+      for (const auto &[edge, normal] : rim)
+      {
+         const auto found = beyond.find(edge);
+         if (found != beyond.end() && found->second.dot(normal) > least_cosine)
+         {
+            on.insert(edge);
+         }
+      }
+      goes_on_.assign(side.size(), false);
+      for (const auto &[edge, normal] : rim)
+      {
+         if (on.count(edge) == 0) { ends_.push_back(edge); }
+         else { goes_on_[edge.first] = goes_on_[edge.second] = true; }
+      }
+      // Nodes in the middle of edges.
+      for (Index i = 0; i < side.size(); ++i)
+      {
+         const auto &[a, b] = side.nodes[i].between;
+         if (a >= 0 && b >= 0 && on.count(edge_of(a, b)) > 0) { goes_on_[i] = true; }
+      }
+   }
+   bool goes_on(Index node) const { return goes_on_[node]; }
+   /// How far a place is from where the body itself ends.
+   double to_end(const Vector3d &place) const
+   {
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto &[a, b] : ends_)
+      {
+         least = std::min(least,
+                          distance_to(place, side_.nodes[a].position, side_.nodes[b].position));
+      }
+      return least;
+   }
+
+private:
+   using Edge = std::pair<Index, Index>;
+   static Edge edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+   const ContactSurface &side_;
+   std::vector<Edge> ends_;
+   std::vector<bool> goes_on_;
+};
+
+} // namespace
+
+void mark_rims(Scene &scene, const std::vector<Interface> &given)
+{
+   ReducedProblem &problem = scene.problem();
+   std::set<Index> marked;
+   for (std::size_t k = 0; k < given.size(); ++k)
+   {
+      const InterfaceReport &face = scene.reduction.interfaces[k];
+      if (face.tied || face.nodes == 0) { continue; }
+      const auto rim_of = [&](const InterfaceSide &side)
+      { return Rim(*scene.bodies[side.body], *scene.meshes[side.body], side.surface); };
+      const InterfaceSide &one = face.of_second ? given[k].second : given[k].first,
+                          &other = face.of_second ? given[k].first : given[k].second;
+      const Rim own = rim_of(one);
+      std::map<int, Index> row; // by the first dof of its node
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         row[problem.dofs(face.first + i, 3 * face.bodies[0])] = i;
+      }
+      const bool rigid = other.body < 0;
+      std::optional<Rim> facing;
+      if (!rigid) { facing.emplace(rim_of(other)); }
+      // 1. The side with the nodes goes on, and the other one does not end there.
+      for (Index node = 0; node < one.surface.size(); ++node)
+      {
+         const auto found = row.find(one.surface.nodes[node].dofs[0]);
+         if (found == row.end() || !own.goes_on(node)) { continue; }
+         const Index i = found->second;
+         const Vector3d place = face.places.row(i);
+         const bool ends = facing && facing->to_end(place) < 0.5 * face.spacing[i];
+         if (!ends) { marked.insert(face.first + i); }
+      }
+      // 2. The other side goes on, and the one with the nodes does not end there.
+      for (Index node = 0; !rigid && node < other.surface.size(); ++node)
+      {
+         if (!facing->goes_on(node)) { continue; }
+         const Vector3d place = other.surface.nodes[node].position;
+         Index nearest = 0;
+         const double away =
+            (face.places.rowwise() - place.transpose()).rowwise().norm().minCoeff(&nearest);
+         const double spacing = face.spacing[nearest];
+         if (away < 0.75 * spacing && own.to_end(place) > 0.5 * spacing)
+         {
+            marked.insert(face.first + nearest);
+         }
+      }
+   }
+   problem.rim.assign(marked.begin(), marked.end());
+}
+
+} // namespace miniapp
