@@ -171,6 +171,26 @@ PartInSpace made_part(BodiesInSpace &own, const JointCase &joint, const JointCas
          own.materials.push_back(materials_of(said, mesh, names, false));
          own.densities.push_back(densities_of(said, mesh, names));
          const int order = said.order > 0 ? said.order : joint.order;
+         // Sides of this body that touch each other may have nodes at the same places.
+         std::vector<int> meeting;
+         for (const JointCase::Face &face : joint.faces)
+         {
+            const bool itself = face.sides[0].body >= 0 &&
+                                face.sides[0].body == face.sides[1].body &&
+                                &joint.bodies[face.sides[0].body] == &said;
+            for (std::size_t k = 0; itself && k < 2; ++k)
+            {
+               const JointCase::Side &side = face.sides[k];
+               const BoundaryPart its = boundary_part(side.called, side.part, part.terms);
+               meeting.insert(meeting.end(), its.attributes.begin(), its.attributes.end());
+            }
+         }
+         for (const std::string &warning :
+              {said.brick ? std::string() : unjoined_vertices(mesh, said.mesh, meeting),
+               missed_curves(mesh, order, said.mesh)})
+         {
+            if (!warning.empty()) { warn(warning); }
+         }
          require(ranks() == 1, "bodies in space are computed on one rank, there are ", ranks(),
                  ": start the program without mpirun");
          part.body =

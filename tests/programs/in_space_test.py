@@ -446,6 +446,32 @@ def deck_text(nodes, solids, order):
                       "*MATERIAL, NAME=SOFT", "*ELASTIC", "1, 0.3", "*SOLID SECTION, ELSET=ALL, MATERIAL=SOFT", ""])
 
 
+def test_meshes_that_are_cut_or_curved_are_warned_of(run):
+    """Two cells of a mesh with nodes of their own are not one body. Elements of order 1 cannot turn on a curved mesh without false forces."""
+    nodes, solids, _ = solid((2, 1, 1), (2, 1, 1), "hexahedra")
+    case = block()
+
+    def warned(text, order):
+        case["bodies"]["block"].update(mesh=run.write("body.inp", text))
+        case["bodies"]["block"]["load"] = "P pressure HIGH 0.01"
+        case["interfaces"]["floor"]["between"] = "block:LOW"
+        return run.case({**case, "order": order}).warned()
+    del case["bodies"]["block"]["block"]
+    assert warned(deck_text(nodes, solids, 1), 1) == ""
+    shared = [n for n in solids[1] if nodes[n][0] == 1]
+    apart = [list(at) for at in nodes] + [list(nodes[n]) for n in shared]
+    cut = [solids[0], [len(nodes) + shared.index(n) if n in shared else n for n in solids[1]]]
+    said = warned(deck_text(apart, cut, 1), 1)
+    assert "4 pairs of nodes coincide" in said and "(1, 0, 0)" in said, said
+    straight = deck_text(nodes, solids, 2)
+    assert warned(straight, 1) == ""
+    # The middle of the edge above moves outwards.
+    bent = straight.replace(", 0.5, 0.0, 1.0\n", ", 0.5, -0.1, 1.0\n")
+    assert bent != straight
+    assert "is curved, but elements of order 1" in warned(bent, 1)
+    assert "curved" not in warned(bent, 2)
+
+
 @pytest.mark.parametrize("elements, order", [(elements, order) for elements in ("hexahedra", "tetrahedra", "wedges") for order in (1, 2)])
 def test_decks_of_solids(run, elements, order):
     """C3D4 to C3D20 with a surface of faces: under a pressure, and as the body of MFEM's elements of the same order (of hexahedra and wedges

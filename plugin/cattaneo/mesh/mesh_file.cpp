@@ -1,5 +1,6 @@
 #include <cattaneo/mesh/mesh_file.hpp>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cattaneo/exchange/off_plane.hpp>
@@ -594,17 +595,23 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
 {
    struct Vertex
    {
-      double along, x, y, near;
+      double along;
+      Eigen::Vector3d at;
+      double near;
       bool meets;
    };
    std::vector<Vertex> vertices;
    // The second coordinate of a mesh on a line was never read: check_elements() refuses it.
    if (mesh.SpaceDimension() < 2) { return ""; }
+   const bool in_space = mesh.SpaceDimension() == 3;
    for (int v = 0; v < mesh.GetNV(); ++v)
    {
       const double *at = mesh.GetVertex(v);
+      const Eigen::Vector3d place(at[0], at[1], in_space ? at[2] : 0);
       // Sorted along a direction that no mesh prefers, so that few nodes are near each other.
-      vertices.push_back({0.8191 * at[0] + 0.5736 * at[1], at[0], at[1], 0, false});
+      const double along = place.dot(in_space ? Eigen::Vector3d(0.6691, 0.4686, 0.5769)
+                                              : Eigen::Vector3d(0.8191, 0.5736, 0));
+      vertices.push_back({along, place, 0, false});
    }
    double farthest = 0;
    for (int e = 0; e < mesh.GetNEdges(); ++e)
@@ -612,7 +619,7 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
       mfem::Array<int> ends;
       mesh.GetEdgeVertices(e, ends);
       Vertex &a = vertices[ends[0]], &b = vertices[ends[1]];
-      const double near = 1e-3 * std::hypot(a.x - b.x, a.y - b.y);
+      const double near = 1e-3 * (a.at - b.at).norm();
       for (Vertex *end : {&a, &b})
       {
          end->near = end->near > 0 ? std::min(end->near, near) : near;
@@ -637,7 +644,7 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
       {
          const Vertex &b = vertices[l];
          if (b.along - a.along > farthest) { break; }
-         if (std::hypot(a.x - b.x, a.y - b.y) > std::min(a.near, b.near)) { continue; }
+         if ((a.at - b.at).norm() > std::min(a.near, b.near)) { continue; }
          if (a.meets && b.meets) { continue; }
          ++pairs;
          if (!first) { first = &a; }
@@ -645,10 +652,11 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
    }
    if (pairs == 0) { return ""; }
    std::ostringstream text;
+   text << "mesh '" << name << "': " << pairs
+        << " pairs of nodes coincide (nearer than a thousandth of their edges), as at ("
+        << first->at[0] << ", " << first->at[1];
+   if (in_space) { text << ", " << first->at[2]; }
    text
-      << "mesh '" << name << "': " << pairs
-      << " pairs of nodes coincide (nearer than a thousandth of their edges), as at ("
-      << first->x << ", " << first->y
       << "). The body is cut there, and its faces may pass through each other: name each face "
          "by itself and put an interface between them, or, if the body is one piece, merge "
          "the nodes (in Gmsh: Coherence Mesh)";
@@ -658,30 +666,32 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
 std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name)
 {
    const int bent = mesh.GetNodes() ? mesh.GetNodalFESpace()->GetMaxElementOrder() : 1;
-   // check_elements() refuses a mesh out of the plane, so no warning is needed.
-   const bool plane = mesh.Dimension() == 2 && mesh.SpaceDimension() == 2;
-   if (order >= bent || !plane) { return ""; }
+   // check_elements() refuses a plane mesh out of the plane, so no warning is needed.
+   const int dimension = mesh.Dimension();
+   if (order >= bent || dimension < 2 || dimension != mesh.SpaceDimension()) { return ""; }
    // How far the mesh is from the curves through the nodes of its elements. Straight sides may
    // have many nodes.
-   const mfem::H1_FECollection collection(order, 2);
+   const mfem::H1_FECollection collection(order, dimension);
    double missed = 0;
    mfem::DenseMatrix at_nodes, exact;
-   mfem::Vector low, high, x(2);
+   mfem::Vector low, high, x(dimension);
    for (int e = 0; e < mesh.GetNE(); ++e)
    {
       const mfem::FiniteElement &element =
          *collection.FiniteElementForGeometry(mesh.GetElementGeometry(e));
       const mfem::IntegrationRule &points =
          mfem::IntRules.Get(mesh.GetElementGeometry(e), 2 * bent);
-      mfem::ElementTransformation &plane = *mesh.GetElementTransformation(e);
-      plane.Transform(element.GetNodes(), at_nodes);
-      plane.Transform(points, exact);
+      mfem::ElementTransformation &map = *mesh.GetElementTransformation(e);
+      map.Transform(element.GetNodes(), at_nodes);
+      map.Transform(points, exact);
       mfem::Vector shape(element.GetDof());
       for (int k = 0; k < points.GetNPoints(); ++k)
       {
          element.CalcShape(points.IntPoint(k), shape);
          at_nodes.Mult(shape, x);
-         missed = std::max(missed, std::hypot(x(0) - exact(0, k), x(1) - exact(1, k)));
+         double off = 0;
+         for (int c = 0; c < dimension; ++c) { off = std::hypot(off, x(c) - exact(c, k)); }
+         missed = std::max(missed, off);
       }
    }
    mesh.GetBoundingBox(low, high);
