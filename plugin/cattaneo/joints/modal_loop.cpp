@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cattaneo/algebra/least_squares.hpp>
 #include <cattaneo/friction/changing_nodes.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/joints/modal_loop.hpp>
@@ -13,6 +14,7 @@ namespace cattaneo
 {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace
@@ -123,9 +125,8 @@ public:
       }
       change = std::max(changes[0], changes[1]);
       // 2. Changes that fall in a constant ratio add up to more than the next change.
-      const double ratio = expected_.size() > 0      ? ratio_
-                           : count > 0 && before > 0 ? change / before
-                                                     : 1;
+      if (!jumped_) { ratio_ = count > 0 && before > 0 ? change / before : 1; }
+      const double ratio = ratio_; // that of before a jump, if there was one
       const double left = ratio < 1 ? change * std::max(1.0, ratio / (1 - ratio)) : change;
       // 3. Work along the loop that is not lost is stored, so the state has changed. Increments
       // also lose the work of pressures on nodes that open or close within them.
@@ -145,38 +146,36 @@ public:
       ++count;
       find_jump(state, drift, 1e-12 * to[0].norm());
       drift_ = drift;
-      status_ = state.status;
       if (goes_back) { steady = ratchets = false; }
    }
-   /// Jumps to the limit of many cycles that continue like the last ones. The equations of the
-   /// node states are linear, so that this state obeys them. If the cycle after a jump is not
-   /// the expected one, returns to the beginning of the jump.
+   /// Jumps most of the way to the limit of cycles that continue like the last ones. The
+   /// equations of the node states are linear, so that this state obeys them. The rest of the
+   /// way shows whether that was right: if the cycle after a jump is not the expected one,
+   /// returns to the beginning of the jump.
    void jump(ContactState &state)
    {
       if (goes_back)
       {
+         // A shorter jump, or at last none, past the change that prevented it.
          state = before_.state;
          drift_ = before_.drift;
-         goes_back = false;
-         cycles_ /= 4;
-         expected_.resize(0);
-         if (cycles_ < 2)
+         goes_back = jumped_ = false;
+         left_ = rest_ = std::sqrt(left_);
+         if (left_ > 0.3)
          {
-            // The march continues without a jump, past the change that prevented one.
-            drift_.resize(0);
-            wait_ = 3;
+            rest_ = 0.1;
+            wait_ = 2;
             return;
          }
       }
-      else { before_ = {state, drift_, begin_.forces()}; }
-      const double all = std::pow(ratio_, cycles_),
-                   ahead = ratio_ * (1 - all) / (1 - ratio_); // in drifts
-      const VectorXd forces = ahead * (state.forces() - before_.forces);
-      expected_ = all * ratio_ * drift_;
-      state.v += ahead * drift_.head(state.v.size());
-      state.w += ahead * drift_.tail(state.w.size());
-      state.q += forces.head(state.q.size());
-      state.p += forces.tail(state.p.size());
+      else { before_ = {state, drift_, next_}; }
+      const Fields way{limit_[0] - state.displacements(), limit_[1] - state.forces()};
+      state.v += (1 - left_) * way[0].head(state.v.size());
+      state.w += (1 - left_) * way[0].tail(state.w.size());
+      state.q += (1 - left_) * way[1].head(state.q.size());
+      state.p += (1 - left_) * way[1].tail(state.p.size());
+      expected_ = left_ * before_.next;
+      jumped_ = true;
    }
 
    /// At which the present cycle began, or the last one if it has ended.
@@ -194,49 +193,114 @@ public:
 private:
    using Fields = std::array<VectorXd, 2>; // displacements, forces
 
-   /// If displacements of cycles have one direction and one ratio, they have a limit.
+   /// If displacements of cycles fall like powers of few numbers, they have a limit. It is the
+   /// mean of the states at the ends of the last cycles, with the weights that make the mean of
+   /// their changes least (reduced rank extrapolation).
    void find_jump(const ContactState &state, const VectorXd &drift, double round_off)
    {
-      // 1. After a jump one cycle shows whether it was right.
-      can_jump = false;
-      if (expected_.size() > 0)
+      // 1. After a jump one cycle shows whether it was right. If so, the rest of the way may be
+      // shorter, as far as the limit is known.
+      can_jump = goes_back = false;
+      const bool same = begin_.status == state.status;
+      if (jumped_)
       {
-         goes_back = (drift - expected_).norm() > 0.3 * expected_.norm() + round_off ||
-                     status_ != state.status;
-         expected_.resize(0);
-         cycles_ *= 2;
-         can_jump = goes_back || drift.norm() > round_off;
+         jumped_ = false;
+         ends_.clear();
+         goes_back =
+            !same || (drift - expected_).norm() > 0.3 * expected_.norm() + unknown_ + round_off;
+         if (!goes_back)
+         {
+            rest_ = std::max(rest_ * rest_, 1e-8);
+            next_ = growth_ * drift;
+         }
+         can_jump = goes_back || goes_on(drift, round_off);
+         if (can_jump) { return; }
+      }
+      // 2. The ends of consecutive cycles without a change of a node's state between them.
+      const Fields from{begin_.displacements(), begin_.forces()};
+      if (!same) { ends_.clear(); }
+      else
+      {
+         if (ends_.empty() || ends_.back()[0] != from[0]) { ends_.assign(1, from); }
+         ends_.push_back({state.displacements(), state.forces()});
+      }
+      if (ends_.size() > most_changes + 1) { ends_.erase(ends_.begin()); }
+      if (wait_ > 0)
+      {
+         --wait_;
          return;
       }
-      // 2. Otherwise three cycles are compared in pairs.
-      if (wait_ > 0) { --wait_; }
-      else if (drift_.size() == drift.size() && status_ == state.status &&
-               begin_.status == state.status)
+      // 3. As few of them as are enough, but three, which show a ratio twice.
+      for (std::size_t changes = 2; changes < ends_.size() && !can_jump; ++changes)
       {
-         const double before = ratio_;
-         ratio_ = drift.dot(drift_) / drift_.squaredNorm();
-         can_jump = ratio_ > 0.3 && ratio_ < 0.99 &&
-                    std::abs(ratio_ - before) <= 0.1 * (1 - ratio_) &&
-                    (drift - ratio_ * drift_).norm() <= 0.02 * drift.norm();
-         cycles_ = std::log(0.1) / std::log(ratio_);
+         can_jump = ends_.size() > 3 && extrapolate(changes) && goes_on(drift, round_off);
       }
    }
+   /// Is the limit known so well that most of the way to it can be left out?
+   bool goes_on(const VectorXd &drift, double round_off)
+   {
+      const double size = drift.norm();
+      left_ = std::max(rest_, 3 * unknown_ / size);
+      return size > 2 * round_off && left_ < 0.4;
+   }
+   /// Finds the limit by that many changes. False if they do not determine it.
+   bool extrapolate(std::size_t changes)
+   {
+      // 1. The weights.
+      const std::size_t first = ends_.size() - changes;
+      const auto change_of = [&](std::size_t k) -> VectorXd
+      { return ends_[first + k][0] - ends_[first + k - 1][0]; };
+      const VectorXd last = change_of(changes - 1);
+      MatrixXd others(last.size(), static_cast<Index>(changes) - 1);
+      for (std::size_t k = 0; k + 1 < changes; ++k)
+      {
+         others.col(static_cast<Index>(k)) = change_of(k) - last;
+      }
+      const VectorXd weights = least_squares(others, -last);
+      const double of_last = 1 - weights.sum();
+      unknown_ = (last + others * weights).norm();
+      if (weights.cwiseAbs().sum() + std::abs(of_last) > 1e5 || of_last == 0) { return false; }
+      // 2. The limit, and the next change by the same relation between changes.
+      next_ = VectorXd::Zero(last.size());
+      for (std::size_t field = 0; field < 2; ++field)
+      {
+         limit_[field] = of_last * ends_.back()[field];
+      }
+      for (std::size_t k = 0; k + 1 < changes; ++k)
+      {
+         const double weight = weights[static_cast<Index>(k)];
+         next_ -= weight / of_last * change_of(k + 1);
+         for (std::size_t field = 0; field < 2; ++field)
+         {
+            limit_[field] += weight * ends_[first + k][field];
+         }
+      }
+      growth_ = next_.norm() / last.norm();
+      return growth_ < 2;
+   }
 
+   static constexpr std::size_t most_changes = 6;
    double tolerance_, share_;
    bool exact_;
    double loss_ = 0;
    ContactState begin_;
    Fields least_, most_;
-   VectorXd drift_; // of the displacements in the previous cycle
-   std::vector<NodeState> status_;
-   double ratio_ = 0, cycles_ = 0; // of drifts, and how many of them a jump leaves out
-   VectorXd expected_;             // drift of the cycle after a jump
-   int wait_ = 0;                  // cycles without a jump
+   VectorXd drift_;           // of the displacements in the previous cycle
+   double ratio_ = 1;         // of the last two changes
+   std::vector<Fields> ends_; // of cycles without a jump between them
+   Fields limit_;             // to which they lead
+   double unknown_ = 0;       // a change of a cycle that it still has
+   VectorXd next_, expected_; // changes by the next cycle without and after a jump
+   double growth_ = 0;        // of that change
+   double rest_ = 0.1;        // share of the way that a jump leaves, if the limit is known
+   double left_ = 0;          // that the next jump leaves
+   bool jumped_ = false;
+   int wait_ = 0; // cycles without a jump
    struct
    {
       ContactState state;
-      VectorXd drift, forces; // forces at the beginning of the cycle
-   } before_;                 // the last jump
+      VectorXd drift, next;
+   } before_; // the last jump
 };
 
 /// A loop that was found, or why there is none.
@@ -314,7 +378,8 @@ public:
             });
          if (nodes_.repeats())
          {
-            state = cycles.start();
+            if (cycles.goes_back) { cycles.jump(state); }
+            else { state = cycles.start(); }
             continue;
          }
          // 2. Has a stop been requested, or is there no equilibrium?
