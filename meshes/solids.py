@@ -195,11 +195,11 @@ def pin(finer=1, radius=50.0, across=10.0, core=0.3, reach=0.9, high=10.0):
     cells = 6 * finer
     step = 2 * core / cells
     rings = [core + (reach - core) * k / round((reach - core) / step) for k in range(1, round((reach - core) / step) + 1)]
-    plan = disc(core, cells, rings + growing(reach, across, step * 1.4, 1.4)[1:])
+    plan = disc(core, cells, rings + growing(reach, across, step * 1.5, 1.8)[1:])
 
     def end(x, y, z):
         return (x, y, z + (radius - math.sqrt(radius**2 - x**2 - y**2)) * (1 - z / high))
-    return ended(layers(plan, growing(0.0, high, step, 1.4), end, low=lambda x, y: "contact" if math.hypot(x, y) < reach else "rim", high="top"), "cut", high)
+    return ended(layers(plan, growing(0.0, high, step, 1.6), end, low=lambda x, y: "contact" if math.hypot(x, y) < reach else "rim", high="top"), "cut", high)
 
 
 def dovetail_plan(meshes, body):

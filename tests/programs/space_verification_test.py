@@ -1,4 +1,4 @@
-"""Bodies in space against closed forms and against the plane: a ring, and a dovetail of finite width."""
+"""Bodies in space against closed forms and against the plane: loss over amplitude, a ring, a dovetail of finite width."""
 
 import math
 import sys
@@ -9,9 +9,75 @@ sys.path.insert(0, str(ROOT / "meshes"))
 import solids  # noqa: E402
 
 
+class Mindlin:
+    """Two alike half-spaces, one of which has a sphere, ν = 0: Hertz, and Cattaneo and Mindlin, for which both are exact."""
+
+    def __init__(self, young, radius, friction, force):
+        self.friction, self.force = friction, force
+        self.a = (0.75 * force * radius / (young / 2)) ** (1 / 3)
+        self.peak = 1.5 * force / (math.pi * self.a**2)
+        # Twice (2 - ν)/G, with G = E/2.
+        self.softness = 8 / young
+        self.slide = 3 * friction * force / (16 * self.a) * self.softness
+
+    def loss(self, s):
+        """Of a cycle of Q between ± s f P, by Masing's rule."""
+        return 4 * self.friction * self.force * self.slide * (s * (1 - (1 - s) ** (2 / 3)) - 2 * (s - 0.6 * (1 - (1 - s) ** (5 / 3))))
+
+
 def at_point(columns, key, time):
     """A column of a table at a point of the history."""
     return next(value for value, t in zip(columns[key], columns["time"]) if abs(t - time) < 1e-9)
+
+
+def pressed_by_a_sphere(run, step, shears):
+    """Half of two alike discs with the gap of a sphere, radius of contact 1, and rings of elements `step` wide at its edge. For cycles of
+    growing shear, each around that of P alone: loss over the closed form, and the number of rings of nodes that slip."""
+    radius, friction, start = 1000.0, 0.3, 0.85
+    exact = Mindlin(1.0, radius, friction, 4 / (3 * radius) / 2)
+    near_relative(exact.a, 1, 1e-12)
+    fine = math.ceil((1 + 3.5 * step - start) / step)
+    reach = start + fine * step
+    rings = [0.4, 0.48, 0.56, 0.64, 0.72, 0.78, 0.82, start] + [start + step * k for k in range(1, fine + 1)]
+    plan = solids.disc(0.3, 6, rings + solids.growing(reach, 10.0, step * 1.5, 1.8)[1:])
+    depth = solids.growing(0.0, 10.0, 0.03, 1.8)
+
+    def face(x, y):
+        return "contact" if math.hypot(x, y) < reach else "rim"
+    run.write("upper.msh", solids.gmsh_text(solids.ended(solids.layers(plan, depth, low=face, high="far"), "cut", 10.0)))
+    run.write("lower.msh", solids.gmsh_text(solids.layers(plan, [-z for z in reversed(depth)], low="far", high=face)))
+
+    def body(name, **keys):
+        return {"mesh": str(run.folder / (name + ".msh")), "young": 1.0, "poisson": 0.0, **keys}
+    guide = {"on": "far", "x": {"force": "Q", "value": friction * exact.force / 2}, "y": "held", "z": {"force": "P", "value": -exact.force / 2}}
+    history = ["P=0", "P=1"] + [f"Q={sign * s}" for s in shears for sign in (1, -1, 1)]
+    ends = [4 + 3 * k for k in range(len(shears))]
+    run.case({"analysis": "space", "order": 1, "history": history, "increments": 6, "stepping": "fixed",
+              "bodies": {"upper": body("upper", support="cut:y", guides=guide), "lower": body("lower", support="cut:y far:xyz")},
+              "interfaces": {"face": {"between": ["upper:contact", "lower:contact"], "friction": friction, "gap": f"(x^2+y^2)/{2 * radius}"}}},
+             "--csv", run.folder / "discs", "--frames", " ".join(map(str, ends)))
+    table, nodes = run.columns("discs_history.csv"), run.columns("discs_nodes.csv")
+    losses = [2 * (at_point(table, "total_dissipation", end) - at_point(table, "total_dissipation", end - 2)) / exact.loss(s) for s, end in zip(shears, ends)]
+    rows = [len({round(math.hypot(x, y), 6) for t, x, y, state in zip(*(nodes[key] for key in ("time", "x", "y", "state")))
+                 if abs(t - end) < 1e-9 and state == "slip"}) for end in ends]
+    return losses, rows, exact
+
+
+def test_loss_grows_with_the_third_power_where_five_rows_slip(run):
+    """Loss of a cycle over its amplitude, which is small enough for slope 3 to show and large enough for five rings of nodes to slip: it is the
+    closed form's, whose slope tends to 3, to what halving the rings changes."""
+    shears = (0.13, 0.18, 0.25)
+    (coarse, _, _), (fine, rows, exact) = (pressed_by_a_sphere(run, step, shears) for step in (0.02, 0.01))
+    assert min(rows) >= 5, rows
+
+    def slopes(ratios):
+        losses = [ratio * exact.loss(s) for ratio, s in zip(ratios, shears)]
+        return [math.log(losses[k + 1] / losses[k]) / math.log(shears[k + 1] / shears[k]) for k in (0, 1)]
+    change = max(abs(a - b) for a, b in zip(slopes(coarse), slopes(fine)))
+    assert change < 0.3
+    for slope, expected in zip(slopes(fine), slopes([1, 1, 1])):
+        assert abs(slope - expected) <= change and abs(slope - 3) < 0.25, (slopes(coarse), slopes(fine))
+    near_all(fine, 1, max(abs(a - b) for a, b in zip(coarse, fine)))
 
 
 def ring(run, cells, friction, increments, numbers):
