@@ -1,12 +1,17 @@
-"""CalculiX on two of the studies: writes its decks, runs it, reads its results. Used by peers.py.
+"""CalculiX on two of the studies and on a sphere in space: writes its decks, runs it, reads its results. Used by peers.py.
 
 Plane strain, quadrilaterals of order 1 or 2, graded as ours, face-to-face penalty contact. Units as in the studies. The
 loads are consistent nodal forces, the same as ours. Penalties are PENALTY contact moduli over the element size at the
 contact: what remains of them is seen by changing it."""
+import math
 import os
 import re
 import resource
 import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes"))
+import solids  # noqa: E402
 
 SCALE = 1e-4  # of the displacements, by stiffer bodies: contact is sought between displaced faces, and the studies are
               # of small displacements (smaller loads would meet absolute tolerances)
@@ -244,7 +249,196 @@ def lap_joint_results(result, pairs):
         u = {int(row[0]): [x / SCALE for x in row[1:3]] for row in table}
         slip.append([u[pairs[x][0]][0] - u[pairs[x][1]][0] for x in xs])
         opening.append([max(0, u[pairs[x][0]][1] - u[pairs[x][1]][1]) for x in xs])
-    change = [b - a for a, b in zip(*slip)]
+    return lap_lengths(xs, opening, [b - a for a, b in zip(*slip)])
+
+
+def lap_lengths(xs, opening, change):
     return {"contact half-length": front(xs, opening[0], 0.003 * max(opening[0])),
             "contact half-length at T": front(xs, opening[1], 0.003 * max(opening[1])),
             "stick half-length at T": front(xs, change, 0.02 * max(abs(s) for s in change))}
+
+
+class Space:
+    """A deck of C3D8: bodies, each with its mesh and material, and one contact pair."""
+    SIDES = {"S1": (0, 1, 2, 3), "S2": (4, 5, 6, 7), "S3": (0, 1, 5, 4), "S4": (1, 2, 6, 5), "S5": (2, 3, 7, 6), "S6": (3, 0, 4, 7)}
+
+    def __init__(self):
+        self.bodies, self.places, self.fixed, self.equations, self.forces = {}, [], set(), [], [{}]
+
+    def add(self, name, mesh, young, poisson):
+        self.bodies[name] = (mesh, len(self.places), young, poisson)
+        self.places += mesh.nodes
+
+    def nodes(self, body, *parts):
+        """Numbers of the nodes of parts of a body."""
+        mesh, first, _, _ = self.bodies[body]
+        return sorted({first + p + 1 for name, face in mesh.faces if name in parts for p in face})
+
+    def nearest(self, body, x, y):
+        """All nodes of a body at the (x, y) of the node that lies nearest to it."""
+        mesh, first, _, _ = self.bodies[body]
+        at = min(mesh.nodes, key=lambda node: math.hypot(node[0] - x, node[1] - y))
+        return [first + k + 1 for k, node in enumerate(mesh.nodes) if math.hypot(node[0] - at[0], node[1] - at[1]) < 1e-9]
+
+    def fix(self, nodes, *components):
+        self.fixed |= {(n, c) for n in nodes for c in components}
+
+    def traction(self, body, part, component, density):
+        """Adds consistent forces of a constant density on a part of rectangles to those of this step."""
+        mesh, first, _, _ = self.bodies[body]
+        for name, face in mesh.faces:
+            if name == part:
+                a, b, _, d = (mesh.nodes[p] for p in face)
+                area = math.dist(a, b) * math.dist(a, d)
+                for p in face:
+                    key = (first + p + 1, component)
+                    self.forces[-1][key] = self.forces[-1].get(key, 0.0) + density * area / 4
+
+    def write(self, file, slave, master, friction, penalty, increments, printed, contact="SURFACE TO SURFACE"):
+        """`slave` and `master`: body and names of parts; `self.forces`: those at the end of each step."""
+        with open(file, "w") as f:
+            say = lambda *text: print(*text, file=f)
+            say("*NODE, NSET=ALL")
+            for k, at in enumerate(self.places, 1):
+                say("%d, %.12g, %.12g, %.12g" % (k, *at))
+            side_of, count = {}, 0
+            for name, (mesh, first, young, poisson) in self.bodies.items():
+                say("*ELEMENT, TYPE=C3D8, ELSET=%s" % name)
+                for cell in mesh.cells:
+                    count += 1
+                    say(", ".join(str(n) for n in [count] + [first + p + 1 for p in cell]))
+                    for side, corners in self.SIDES.items():
+                        side_of[name, tuple(sorted(cell[c] for c in corners))] = (count, side)
+                say("*MATERIAL, NAME=M%s\n*ELASTIC\n%.12g, %.12g\n*SOLID SECTION, ELSET=%s, MATERIAL=M%s" % (name, young, poisson, name, name))
+            say("*BOUNDARY")
+            for node, component in sorted(self.fixed):
+                say("%d, %d, %d" % (node, component, component))
+            if self.equations:
+                say("*EQUATION")
+            for node, component, other in self.equations:
+                say("2\n%d, %d, 1., %d, %d, -1." % (node, component, other, component))
+            for name, parts in (slave, master):
+                say("*SURFACE, NAME=S%s, TYPE=ELEMENT" % name)
+                for part, face in self.bodies[name][0].faces:
+                    if part in parts:
+                        say("%d, %s" % side_of[name, tuple(sorted(face))])
+            say("*NSET, NSET=PRINTED")
+            for n in printed:
+                say("%d," % n)
+            say("*SURFACE INTERACTION, NAME=LAW")
+            if contact == "SURFACE TO SURFACE":
+                say("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n%.12g\n*FRICTION\n%.12g, %.12g" % (penalty, friction, penalty / 10))
+            else:
+                say("*FRICTION\n%.12g" % friction)
+            say("*CONTACT PAIR, INTERACTION=LAW, TYPE=%s\nS%s, S%s" % (contact, slave[0], master[0]))
+            for number, forces in zip(increments, self.forces):
+                say("*STEP, INC=10000\n*STATIC\n%.6g, 1., 1e-6, %.6g\n*CLOAD, OP=MOD" % (1 / number, 1 / number))
+                for (node, component), force in sorted(forces.items()):
+                    say("%d, %d, %.12g" % (node, component, force))
+                say("*NODE PRINT, NSET=PRINTED, FREQUENCY=1000000\nU\n*END STEP")
+
+
+YOUNG, RADIUS, PRESS, SPHERE_FRICTION, SHEAR = 210e3, 50.0, 1000.0, 0.3, 0.5  # of the sphere; ν = 0, Q = SHEAR f P
+
+
+def sphere_references():
+    """Hertz, Cattaneo and Mindlin, for whom ν = 0 is exact: radius of contact, of stick, largest pressure."""
+    a = (0.75 * PRESS * RADIUS / (YOUNG / 2)) ** (1 / 3)
+    return {"contact radius": a, "stick radius": a * (1 - SHEAR) ** (1 / 3), "peak pressure": 1.5 * PRESS / (math.pi * a * a)}
+
+
+def sphere_meshes(across, lowered=0.0):
+    """Halves of a pin with a spherical end and of a block, on one plan: `across` elements across 0.6 mm at the contact."""
+    reach, step = 0.9, 0.6 / across
+    rings = round((reach - 0.3) / step)
+    plan = solids.disc(0.3, across, [0.3 + (reach - 0.3) * k / rings for k in range(1, rings + 1)] + solids.growing(reach, 10.0, 1.6 * step, 1.6)[1:])
+    face = lambda x, y: "contact" if math.hypot(x, y) < reach else "rim"
+    end = lambda x, y, z: (x, y, z - lowered + (RADIUS - math.sqrt(RADIUS**2 - x * x - y * y)) * (1 - z / 10))
+    depth = solids.growing(0.0, 10.0, step, 1.6)
+    return solids.ended(solids.layers(plan, depth, end, low=face, high="far"), "cut", 10.0), solids.layers(plan, [-z for z in reversed(depth)], low="far", high=face)
+
+
+def sphere(folder, across, name="sphere", increments=(5, 10), contact="SURFACE TO SURFACE"):
+    """Pressed by P, then sheared by Q, halves of both. The pin is lowered a little, which its motion takes up: without contact nothing would
+    hold it in the first iteration."""
+    lowered = 0.002
+    deck = Space()
+    for body, mesh in zip(("PIN", "BLOCK"), sphere_meshes(across, lowered)):
+        deck.add(body, mesh, YOUNG, 0)
+        deck.fix(deck.nodes(body, "cut", "cut_end"), 2)
+    top = deck.nodes("PIN", "far")
+    deck.fix(top, 2)
+    deck.fix(deck.nodes("BLOCK", "far"), 1, 2, 3)
+    deck.equations = [(n, c, top[0]) for n in top[1:] for c in (1, 3)]
+    deck.forces = [{(top[0], 3): -PRESS / 2}, {(top[0], 1): SHEAR * SPHERE_FRICTION * PRESS / 2}]
+    # Nodes on the axis of the shear face each other.
+    above, below = ({round(deck.places[n - 1][0], 9): n for n in deck.nodes(body, "contact") if deck.places[n - 1][1] == 0 <= deck.places[n - 1][0]}
+                    for body in ("PIN", "BLOCK"))
+    penalty = PENALTY * YOUNG / (0.6 / across)
+    deck.write(os.path.join(folder, name + ".inp"), ("PIN", ("contact",)), ("BLOCK", ("contact", "rim")), SPHERE_FRICTION, penalty, increments,
+               list(above.values()) + list(below.values()), contact)
+    return {x: (above[x], below[x], RADIUS - math.sqrt(RADIUS**2 - x * x) - lowered) for x in sorted(above)}, penalty
+
+
+def sphere_results(result, asked):
+    """Pressure and shear are those of the penalties on overlap and elastic slip."""
+    pairs, penalty = asked
+    after_p, after_q = ({int(row[0]): row[1:4] for row in table} for table in blocks(result["dat"], "displacements"))
+    overlap = [after_p[below][2] - after_p[above][2] - gap for above, below, gap in pairs.values()]
+    slip = [u[above][0] - u[below][0] for u in (after_p, after_q) for above, below, _ in list(pairs.values())[:1]]
+    return sphere_lengths(list(pairs), [penalty * max(0, w) for w in overlap], penalty / 10 * abs(slip[1] - slip[0]))
+
+
+def sphere_lengths(xs, pressures, shear):
+    """From pressures along a radius and the shear at its centre. Squares of the pressures are linear in those of the radii: a line through those
+    above 0.3 of the largest one has its zero at the edge. At the centre, in stick, the shear is f p0 (1 - c/a)."""
+    used = [(x * x, p * p) for x, p in zip(xs, pressures) if p > 0.3 * max(pressures)]
+    n, sx, sy = len(used), sum(x for x, _ in used), sum(y for _, y in used)
+    slope = (n * sum(x * y for x, y in used) - sx * sy) / (n * sum(x * x for x, _ in used) - sx * sx)
+    peak = ((sy - slope * sx) / n) ** 0.5
+    a = peak / (-slope) ** 0.5
+    return {"contact radius": a, "stick radius": a * (1 - shear / (SPHERE_FRICTION * peak)), "peak pressure": peak}
+
+
+def slice_meshes(spacing, thick=0.1):
+    """The laps of lap_joint() as slices of one layer of hexahedra: `pinch` on |x| < 1/2, `face` on |x| < 1.95, `pull` at the far end, `wall`."""
+    protrusion, remote = 1.95, 16.0
+    count = 2 * round(1.0 / spacing)
+    near = [-1 + 2 * k / count for k in range(count + 1)]
+    out = [x + 1 for x in graded(protrusion - 1, spacing, 1.2, 0.1)][1:]
+    far = [x + protrusion for x in graded(remote - protrusion, 0.1, 1.3, 1.0)][1:]
+    xs = [-x for x in reversed(far)] + [-x for x in reversed(out)] + near + out
+    ys = graded(0.5, spacing, 1.2, 0.1)
+    ys[ys.index(min(ys, key=lambda y: abs(y - 0.25)))] = 0.25
+    columns, made = len(xs), []
+    for turn in (1, -1):
+        points = [(turn * x, turn * y) for y in ys for x in xs]
+        cells = [(k, k + 1, k + 1 + columns, k + columns) for j in range(len(ys) - 1) for k in range(j * columns, (j + 1) * columns - 1)]
+        top = (len(ys) - 1) * columns
+        edges = [("face", (k, k + 1)) for k in range(columns - 1) if xs[k] > -protrusion - 1e-9]
+        edges += [("pinch", (top + k + 1, top + k)) for k in range(columns - 1) if abs(xs[k] + xs[k + 1]) < 1]
+        edges += [("pull", ((j + 1) * columns, j * columns)) for j in range(len(ys) - 1)]
+        made.append(solids.layers(solids.Plan(points, cells, edges), [0, thick], low="wall", high="wall"))
+    return made
+
+
+def lap_slice(folder, spacing, name="slice", increments=(5, 10), contact="SURFACE TO SURFACE"):
+    """lap_joint() in space."""
+    f, T, deck = 0.2, 0.04, Space()
+    for body, mesh in zip(("UPPER", "LOWER"), slice_meshes(spacing)):
+        deck.add(body, mesh, 0.91 / SCALE, 0.3)
+        deck.fix(deck.nodes(body, "wall"), 3)
+    deck.fix(deck.nearest("UPPER", -16, 0.25) + deck.nearest("LOWER", 16, -0.25), 2)
+    deck.fix(deck.nearest("LOWER", 0, 0) + deck.nearest("UPPER", 0, 0), 1)
+    for step in (0, 1):
+        if step:
+            deck.forces.append(dict(deck.forces[0]))
+            deck.traction("UPPER", "pull", 1, -2 * T)
+            deck.traction("LOWER", "pull", 1, 2 * T)
+        else:
+            deck.traction("UPPER", "pinch", 2, -1)
+            deck.traction("LOWER", "pinch", 2, 1)
+    above, below = ({round(deck.places[n - 1][0], 9): n for n in deck.nodes(body, "face") if deck.places[n - 1][2] == 0} for body in ("UPPER", "LOWER"))
+    deck.write(os.path.join(folder, name + ".inp"), ("UPPER", ("face",)), ("LOWER", ("face",)), f, PENALTY * 0.91 / SCALE / spacing, increments,
+               list(above.values()) + list(below.values()), contact)
+    return {x: (above[x], below[x]) for x in sorted(above)}

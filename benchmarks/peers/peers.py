@@ -3,13 +3,15 @@
 tables. docs/peers.md says what is compared, and how fairly.
 
     python3 benchmarks/peers/peers.py [--build build/release] [--picture profile.png] [--times times.png]
-                                      [condensation|studies|cycles|solvers]...
+                                      [condensation|studies|space|cycles|solvers]...
 
 Peers: CalculiX (Debian: calculix-ccx), GetFEM (python3-getfem), Siconos numerics (libsiconos-numerics-dev). Times are CPU
 seconds of whole processes with one thread; python3-matplotlib draws the pictures."""
 import argparse
+import csv
 import glob
 import json
+import math
 import os
 import resource
 import shutil
@@ -21,6 +23,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, HERE)
 import calculix  # noqa: E402
+from calculix import solids  # noqa: E402
 
 PUNCH = {"stick half-width": 0.471, "corner slip": 0.0496, "stick end at Q": -0.203}
 LAP = {"contact half-length": 0.7011, "contact half-length at T": 0.6596, "stick half-length at T": 0.760 * 0.6596}
@@ -108,6 +111,95 @@ def studies(build):
             print("%-10s %-26s %s" % ("CalculiX", mesh, values))
         else:
             line("CalculiX", mesh, result["seconds"], result["MB"], result["dofs"], values, LAP)
+
+
+def our_case(build, case, columns):
+    """A case of `contact` as a process: CPU seconds, MB, results, and its contact nodes at each time."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, body in case["bodies"].items():
+            with open(os.path.join(folder, name + ".msh"), "w") as f:
+                f.write(solids.gmsh_text(body["mesh"]))
+            body["mesh"] = name + ".msh"
+        with open(os.path.join(folder, "case.json"), "w") as f:
+            json.dump({"version": 2, "analysis": "space", "order": 1, **case}, f)
+        run = subprocess.Popen([os.path.join(build, "miniapps", "contact"), "--case", os.path.join(folder, "case.json"), "--csv",
+                                os.path.join(folder, "c"), "--frames", "1 2", "--json", os.path.join(folder, "r.json")], stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True, env=dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1"))
+        output = run.stdout.read()
+        _, status, usage = os.wait4(run.pid, 0)
+        run.returncode = status
+        if status:
+            sys.exit(output)
+        with open(os.path.join(folder, "r.json")) as f:
+            results = json.load(f)
+        with open(os.path.join(folder, "c_nodes.csv"), newline="") as f:
+            nodes = [{key: float(value) for key, value in row.items() if key in columns}
+                     for row in csv.DictReader(line for line in f if not line.startswith("# "))]
+    times = {}
+    for node in nodes:
+        times.setdefault(node["time"], []).append(node)
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, results, times
+
+
+READ = ("time", "x", "y", "z", "p", "q1", "q2", "opening", "slip1", "slip2")
+
+
+def our_sphere(build, across):
+    pin, block = calculix.sphere_meshes(across)
+    half, f = calculix.PRESS / 2, calculix.SPHERE_FRICTION
+    guide = {"on": "far", "x": {"force": "Q", "value": calculix.SHEAR * f * half}, "y": "held", "z": {"force": "P", "value": -half}}
+    steel = {"young": calculix.YOUNG, "poisson": 0}
+    seconds, memory, results, times = our_case(build, {
+        "bodies": {"pin": {"mesh": pin, "support": "cut:y", "guides": guide, **steel}, "block": {"mesh": block, "support": "cut:y far:xyz", **steel}},
+        "interfaces": {"face": {"between": ["pin:contact", "block:contact,rim"], "friction": f}},
+        "history": ["P=0", "P=1", "Q=1"], "increments": 10}, READ)
+    line_of = [sorted((n for n in times[t] if abs(n["y"]) < 1e-9 and n["x"] > -1e-9), key=lambda n: n["x"]) for t in (1, 2)]
+    shear = math.hypot(*(line_of[1][0][q] - line_of[0][0][q] for q in ("q1", "q2")))
+    return seconds, memory, results["dofs"], calculix.sphere_lengths([n["x"] for n in line_of[0]], [n["p"] for n in line_of[0]], shear)
+
+
+def our_slice(build, spacing):
+    upper, lower = calculix.slice_meshes(spacing)
+    steel, T, z = {"young": 0.91, "poisson": 0.3}, 0.04, (0, 0.1)
+    hold = lambda x, y, c: " ".join("@%g,%g,%g:%s" % (x, y, at, c) for at in z)
+    seconds, memory, results, times = our_case(build, {
+        "bodies": {"upper": {"mesh": upper, "support": "wall:z " + hold(-16, 0.25, "y"), "load": "P pressure pinch 1; T traction pull %g 0 0" % (-2 * T), **steel},
+                   "lower": {"mesh": lower, "support": "wall:z " + hold(16, -0.25, "y") + " " + hold(0, -0.5, "x"),
+                             "load": "P pressure pinch 1; T traction pull %g 0 0" % (2 * T), **steel}},
+        "interfaces": {"face": {"between": ["upper:face", "lower:face"], "friction": 0.2}},
+        "history": ["P=0", "P=1", "T=1"], "increments": 10}, READ)
+    pairs, tables = {}, []
+    for t in (1, 2):
+        row = sorted((n for n in times[t] if n["x"] > -1e-9 and abs(n["z"]) < 1e-9), key=lambda n: n["x"])
+        tables.append(row)
+    xs = [n["x"] for n in tables[0]]
+    change = [math.hypot(*(b[v] - a[v] for v in ("slip1", "slip2"))) for a, b in zip(*tables)]
+    opening = [[n["opening"] for n in row] for row in tables]
+    return seconds, memory, results["dofs"], calculix.lap_lengths(xs, opening, change)
+
+
+def space(build):
+    """Meshes of hexahedra, which both programs read."""
+    has_ccx = shutil.which("ccx") is not None
+    if not has_ccx:
+        print("CalculiX (ccx) is not installed: its rows are missing")
+    for title, references, sizes, peers, ours_, deck, read in (
+            ("Sphere on a block, f = 0.3, ν = 0, elements across 0.6 mm: P in 5 increments (ours: 10), then Q = 0.5 fP in 10", calculix.sphere_references(),
+             (4, 6), ((6, 50),), our_sphere, calculix.sphere, calculix.sphere_results),
+            ("Lap joint, a slice of hexahedra between walls: pinched in 5 increments (ours: 10), pulled in 10", LAP,
+             (0.05, 0.025), ((0.05, 50), (0.025, 50)), our_slice, calculix.lap_slice, calculix.lap_joint_results)):
+        table(title, references)
+        for size in sizes:
+            line("ours", "%g" % size, *ours_(build, size), references)
+        for size, penalty in peers if has_ccx else ():
+            calculix.PENALTY = penalty
+            with tempfile.TemporaryDirectory() as folder:
+                result, values = peer(lambda f, n: deck(f, size, n), read, "space", folder)
+            mesh = "%g, k %d" % (size, penalty)
+            if result is None:
+                print("%-10s %-26s %s" % ("CalculiX", mesh, values))
+            else:
+                line("CalculiX", mesh, result["seconds"], result["MB"], result["dofs"], values, references)
 
 
 def process(command, limit):
@@ -222,19 +314,21 @@ def main():
     parser.add_argument("--build", default=os.path.join(ROOT, "build", "release"))
     parser.add_argument("--picture", default="", help="file for the performance profile")
     parser.add_argument("--times", default="", help="file for errors against run times")
-    parser.add_argument("what", nargs="*", default=["condensation", "studies", "cycles", "solvers"])
+    parser.add_argument("what", nargs="*", default=["condensation", "studies", "space", "cycles", "solvers"])
     options = parser.parse_args()
     for what in options.what:
         if what == "condensation":
             condensation(options.build)
         elif what == "studies":
             studies(options.build)
+        elif what == "space":
+            space(options.build)
         elif what == "cycles":
             cycles(options.build, options.times)
         elif what == "solvers":
             solvers(options.build, options.picture)
         else:
-            sys.exit("error: '%s' is none of condensation, studies, cycles, solvers" % what)
+            sys.exit("error: '%s' is none of condensation, studies, space, cycles, solvers" % what)
 
 
 if __name__ == "__main__":
