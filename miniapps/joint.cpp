@@ -199,6 +199,10 @@ void vibrate(Study &study, const CaseOfJoint &options, ModalCurves &curves,
    study.code = exit_code(problem, report);
    if (study.code != 0) { return; }
    study.results["loads"] = named(problem, state.multipliers);
+   require(state.p.maxCoeff() > 0, "at point ", point,
+           " of the history no contact node carries a force, so that none is glued: a load or "
+           "a bolt must press the bodies together before (option --at-point names another "
+           "point)");
 
    // 3. Modes with the closed nodes glued.
    std::vector<Bolt> shanks;

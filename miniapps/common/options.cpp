@@ -598,7 +598,9 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
    }
    // The changed places are shown; a key may be swept.
    for (const std::string &name : changed_) { values[name] = named(name)->text(); }
-   for (const char *name : {"set", "sweep-results", "amplitudes"}) { values.erase(name); }
+   for (const char *name : {"set", "sweep-results"}) { values.erase(name); }
+   // Those of a history are values of the sweep; another program's are its own.
+   if (named("amplitude")) { values.erase("amplitudes"); }
    values["sweep"] = "none"; // a case file may have one
    for (const auto &[key, value] : changes)
    {

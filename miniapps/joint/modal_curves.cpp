@@ -19,8 +19,12 @@ namespace
 {
 
 const double pi = std::acos(-1.0);
-/// The damping ratio below which no node slips.
-constexpr double no_slip = 1e-8;
+/// The largest damping ratio, and loss over the work of the state's forces, of loops in which
+/// no node slips.
+constexpr double no_slip = 1e-8, no_loss = 1e-12;
+/// Modal forces below this share of the forces of the state are lost in their round-off: at
+/// this share frequencies are wrong by some 1e-6.
+constexpr double least_force = 1e-7;
 
 /// "1e-7 … 1e-4" (or ... or to) in equal ratios, or a list of numbers.
 std::vector<double> amplitudes(const std::string &words, int count)
@@ -128,6 +132,25 @@ double default_size(FrictionSolver &solver, const ReducedProblem &problem,
    return size;
 }
 
+/// The smallest loop whose forces are more than round-off of those of the state.
+double smallest_size(const ReducedProblem &problem, const ContactState &state,
+                     const std::string &mode, double omega, LoopSize size)
+{
+   const LoadPattern &load = problem.patterns[problem.pattern(mode)];
+   const double force = least_force * std::hypot(state.p.norm(), state.q.norm()) /
+                        std::hypot(load.q.norm(), load.p.norm());
+   return size == LoopSize::energy ? 0.5 * std::pow(force / omega, 2) : force / (omega * omega);
+}
+
+/// A loop in which no node slips loses nothing but round-off. `work` is that of the forces of
+/// the state.
+void leave_round_off(ModalLoop &loop, double work)
+{
+   if (loop.zeta >= no_slip && loop.dissipation > no_loss * work) { return; }
+   loop.zeta = loop.zeta_secant = loop.dissipation = 0;
+   loop.node_dissipation.setZero();
+}
+
 /// Draws the loss by friction at each node, along each interface that loses a hundredth or
 /// more.
 void draw_along(Panel &panel, const std::string &label,
@@ -137,7 +160,7 @@ void draw_along(Panel &panel, const std::string &label,
    {
       if (face.tied || face.position.rows() == 0) { continue; }
       const VectorXd lost = loop.node_dissipation.segment(face.first, face.nodes);
-      if (!(lost.sum() >= 0.01 * loop.dissipation) || loop.zeta < no_slip) { continue; }
+      if (!(lost.sum() >= 0.01 * loop.dissipation) || loop.zeta == 0) { continue; }
       VectorXd along = VectorXd::Zero(face.nodes);
       for (Index i = 1; i < face.nodes; ++i)
       {
@@ -338,6 +361,8 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
    softening.say("scale", "loglog");
 
    // 3. Mode after mode.
+   const double work =
+      state.p.cwiseAbs().dot(state.w.cwiseAbs()) + state.q.cwiseAbs().dot(state.v.cwiseAbs());
    ModalLoopSettings settings;
    settings.size = kind_ == "energy" ? LoopSize::energy : LoopSize::amplitude;
    // In space each trial takes many increments. A loop of nearly the requested amplitude is a
@@ -358,19 +383,26 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
       {
          if (kind_ == "point") { its /= at_point; }
       }
+      const double least = smallest_size(problem, state, name, glued, settings.size);
       if (sizes.empty())
       {
          const double most = default_size(solver, problem, state, name, glued, settings);
          for (int j = 0; j < count_; ++j)
          {
-            sizes.push_back(most * std::pow(1e-3, 1 - static_cast<double>(j) / (count_ - 1)));
+            const double share = std::pow(1e-3, 1 - static_cast<double>(j) / (count_ - 1));
+            sizes.push_back(std::max(least, share * most));
          }
       }
       std::sort(sizes.begin(), sizes.end());
       sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+      require(sizes.front() >= least, name, ": amplitude ",
+              sizes.front() * (kind_ == "point" ? at_point : 1), " must be at least ",
+              least * (kind_ == "point" ? at_point : 1),
+              ": forces of a smaller one are round-off of those that hold the joint together");
       ModalLoop drawn;
-      const std::vector<ModalLoop> found =
+      std::vector<ModalLoop> found =
          modal_curve(solver, problem, state, name, glued, sizes, settings);
+      for (ModalLoop &loop : found) { leave_round_off(loop, work); }
       for (std::size_t j = 0; j < sizes.size(); ++j)
       {
          const ModalLoop &loop = found[j];
@@ -410,11 +442,11 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
             drawn = loop;
          }
       }
-      // If no node slips, damping and loss of frequency are round-off.
+      // They are not on logarithmic axes.
       std::vector<double> lost_drawn = lost, zeta_drawn = zeta;
       for (std::size_t j = 0; j < x.size(); ++j)
       {
-         if (zeta_drawn[j] < no_slip) { zeta_drawn[j] = none; }
+         if (zeta_drawn[j] == 0) { zeta_drawn[j] = none; }
          if (lost_drawn[j] < 1e-6) { lost_drawn[j] = none; }
       }
       const double zeta_slope = slope(x, zeta_drawn), lost_slope = slope(x, lost_drawn);
@@ -430,7 +462,7 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
          loops.point(label, one.amplitude / drawn.amplitude, one.force / drawn.force);
       }
       if (!joint.in_space()) { draw_along(map, label, faces, drawn); }
-      else if (draw_losses && drawn.zeta >= no_slip)
+      else if (draw_losses && drawn.zeta > 0)
       {
          const auto lost_by = [&](const InterfaceReport &face) {
             return face.tied ? 0.0
@@ -453,7 +485,7 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
    std::string most_at;
    double most = 0;
    int slipping = 0;
-   const bool slips = loop.zeta >= no_slip; // below that it is the round-off of the state
+   const bool slips = loop.zeta > 0;
    for (const InterfaceReport &face : faces)
    {
       if (face.tied || !of.known) { continue; }
@@ -494,7 +526,9 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
    }
    study_.row(table,
               {of.mode,
-               of.known ? loop.amplitude : size,
+               of.known            ? loop.amplitude
+               : kind_ == "energy" ? none
+                                   : size,
                or_none(loop.amplitude) * of.at_point,
                or_none(loop.omega / (2 * pi)),
                100 * (1 - or_none(loop.omega) / of.glued),

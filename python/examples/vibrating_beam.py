@@ -83,7 +83,7 @@ for k, omega in enumerate(modes.omega):
     for loop in joints.modal_curve(vibrating, about, f"mode {k + 1}", omega, amplitudes, tolerance=0.02, increments=8):
         print(
             f"mode {k + 1}  q {loop.amplitude:9.3e}  ω/ω₀ {loop.omega / omega:9.6f} ± {loop.omega_error / omega:7.1e}  "
-            f"ζ {loop.zeta:9.3e} ± {loop.zeta_error:7.1e}  {loop.cycles} cycles {'steady' if loop.steady else loop.message}",
+            f"ζ {loop.zeta:9.3e} ± {loop.zeta_error:7.1e}  {loop.cycles} cycles {'steady' if loop.steady and loop.converged else loop.message}",
             flush=True,
         )
     print(f"  mode {k + 1}: {seconds(its)}", flush=True)

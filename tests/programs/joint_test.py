@@ -53,10 +53,36 @@ def test_a_body_without_density_is_refused(run):
 
 def test_it_is_said_where_units_cannot_be(run):
     case = changed(shipped("bolted_joint"), {"units": {"length": "mm", "force": "N"}, "bodies.nut.density": 7850})
-    got = run.case(case, "--modes", 1, "--amplitudes", "1e-9", program="joint")
+    got = run.case(case, "--modes", 1, "--amplitudes", "1e-4", program="joint")
     assert "speed of sound" in got.warned() and "body nut" in got.warned()
     assert "speed of sound" not in run.case(changed(shipped("bolted_joint"), {"units": {"length": "mm", "force": "N"}}),
                                             "--modes", 1, "--amplitudes", "1e-7", program="joint").warned()
+
+
+def test_round_off_is_no_result(run):
+    """Where all nodes stick nothing is lost, however small the amplitude is, down to one that is refused."""
+    case = shipped("bolted_joint")
+    error = run.case(case, "--modes", 1, "--amplitudes", "1e-30", program="joint", code=1).error
+    assert "mode 1: amplitude 1e-30 must be at least" in error, error
+    least = float(error.split("at least ")[1].split(":")[0])
+    got = run.case(case, "--modes", 1, "--amplitudes", f"{1.01 * least} {10 * least} {100 * least}", program="joint")
+    for row in got["loops"]:
+        near_relative(row["omega"], got["modes"][0]["omega"], 1e-5)
+        assert row["zeta"] == row["dissipation"] == 0 and row["interfaces"]["under_head"]["nodes_that_slip"] == 0
+
+
+def test_nothing_presses(run):
+    case = changed(shipped("bolted_joint"), {"history": ["bolt=0", "bolt=0", "Q=0"]})
+    error = run.case(case, "--at-point", 1, program="joint", code=1).error
+    assert "at point 1 of the history no contact node carries a force" in error, error
+
+
+def test_a_sweep_has_the_amplitudes_of_its_run(run):
+    got = run.case(shipped("bolted_joint"), "--modes", 1, "--amplitudes", "1e-6 2e-6", "--sweep", "order=1 2", "--sweep-results",
+                   "loops.1.amplitude", program="joint")
+    assert len(got["sweep"]) == 2, got.results
+    for row in got["sweep"]:
+        near_relative(row["loops.1.amplitude"], 2e-6, 2e-3)
 
 
 def column(friction=0.8, density=0.7, poisson=0.0):
