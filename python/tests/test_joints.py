@@ -134,6 +134,19 @@ def test_masses_of_calculix(tmp_path):
     assert along @ (upper.M @ along) == pytest.approx(7.8e-9 * 2 * 0.5, rel=1e-6)
 
 
+def test_bodies_must_be_those_of_the_reduction():
+    column = Column(True)
+    with pytest.raises(cattaneo.InputError, match="contact nodes of body 0 are at other places .* in the order of the reduction"):
+        joints.VibratingStructure(column.reduction, column.bodies[::-1])
+
+
+def test_nodes_that_touch_without_a_force_are_open():
+    """The lower block alone is held, so that the upper one is free: six rigid motions."""
+    column = Column(True)
+    modes = column.structure.modes(column.problem, cattaneo.ContactState.virgin(column.problem), 2)
+    assert modes.rigid == 6
+
+
 def test_craig_bampton_tends_to_the_whole_structure_from_above():
     """Nothing joins the blocks: the upper one is free, the lower one held."""
     column = Column(True)

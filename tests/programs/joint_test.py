@@ -116,6 +116,15 @@ def test_a_column_in_space_vibrates_as_a_rod(run):
             near_relative(loop["omega"], mode["omega"], 1e-6)
 
 
+def test_tetrahedra_of_order_2_on_hexahedra(run):
+    """Unknowns in the middle of their edges are not displacements. The frequency is that of finer hexahedra on hexahedra."""
+    case = changed(column(poisson=0.3), {"bodies.high.block.elements": "tetrahedra", "order": 2})
+    got = run.case(case, "--modes", 1, "--amplitudes", "1e-5", program="joint")
+    near_relative(got["loops"][0]["omega"], got["modes"][0]["omega"], 1e-6)
+    fine = run.case(changed(column(poisson=0.3), {"order": 2}), "--modes", 1, "--amplitudes", "1e-5", program="joint")
+    near_relative(got["modes"][0]["omega"], fine["modes"][0]["omega"], 0.02)
+
+
 def test_a_column_in_space_loses_work_where_it_slips(run):
     got = run.case(column(friction=0.3, poisson=0.3), "--modes", 1, "--amplitudes", "5e-3", "--amplitude-at", "tip",
                    "--csv", run.folder / "out", program="joint")

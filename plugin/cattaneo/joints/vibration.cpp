@@ -7,6 +7,7 @@
 #include <cattaneo/reduced/contact_motions.hpp>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace cattaneo
 {
@@ -82,7 +83,8 @@ GluedRows glued_rows(const ReducedProblem &problem, const ContactState &state)
    GluedRows glued(m + n, false);
    for (Index i = 0; i < n; ++i)
    {
-      if (!closed(state.status[i])) { continue; }
+      // A node that touches without a force counts as open.
+      if (!closed(state.status[i]) || state.p[i] <= 0) { continue; }
       glued[m + i] = true;
       for (Index row = i; row < m; row += n) { glued[row] = problem.friction[i] > 0; }
    }
@@ -121,6 +123,8 @@ struct VibratingStructure::Parts
    }
    void add_body(const Reduction &reduction, const ContactMotions &contact, std::size_t b,
                  int first_column, int columns);
+   /// A coordinate in a sentence, by the first dof that it moves.
+   std::string called(int coordinate) const;
    void add_shank(const Reduction &reduction, const Bolt &bolt);
    /// The displacements of all coordinates except the relative displacements, K_rr⁻¹ f_r.
    /// Motions that nothing resists are left at rest.
@@ -220,6 +224,64 @@ void VibratingStructure::Parts::add_body(const Reduction &reduction,
    M += RowMatrix(Z.transpose() * MZ);
 }
 
+std::string VibratingStructure::Parts::called(int coordinate) const
+{
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      const RowMatrix moved = motions[b].middleCols(coordinate, 1);
+      const DofPlaces &places = bodies[b].body.places;
+      for (Index dof = 0; dof < moved.rows(); ++dof)
+      {
+         if (moved.innerVector(dof).nonZeros() == 0) { continue; }
+         std::ostringstream text;
+         text << "the dof " << dof << " of body " << b << " at (" << places.x[dof] << ", "
+              << places.y[dof];
+         if (places.z.size() > 0) { text << ", " << places.z[dof]; }
+         text << ")";
+         return text.str();
+      }
+   }
+   return "a dof";
+}
+
+namespace
+{
+
+/// Bodies must be those of the reduction, in its order: their contact nodes are at the same
+/// places.
+void require_same_places(const CondensedBody &reduced, const AssembledBody &body, std::size_t b)
+{
+   const bool space = reduced.line.formulation == Formulation::space;
+   const auto place = [&](Index node)
+   {
+      Eigen::Vector3d at(0, 0, 0);
+      if (space) { at = reduced.surface.nodes[node].position; }
+      else { at.head<2>() = reduced.line.nodes[node].position; }
+      return at;
+   };
+   const std::vector<int> dofs = contact_dofs_of(reduced);
+   const Index n = reduced.nodes();
+   double size = 0;
+   for (Index node = 0; node < n; ++node) { size = std::max(size, place(node).norm()); }
+   for (std::size_t k = 0; k < dofs.size(); ++k)
+   {
+      if (dofs[k] < 0) { continue; }
+      bool same = dofs[k] < body.K.size();
+      if (same)
+      {
+         const DofPlaces &places = body.places;
+         const Eigen::Vector3d its(places.x[dofs[k]], places.y[dofs[k]],
+                                   space ? places.z[dofs[k]] : 0);
+         same = (its - place(static_cast<Index>(k) % n)).norm() <= 1e-6 * size;
+      }
+      require(same, "vibration: contact nodes of body ", b,
+              " are at other places than those of the reduction's body ", b,
+              ", must be at the same ones: bodies must be in the order of the reduction");
+   }
+}
+
+} // namespace
+
 /// A spring on the load's forces: stiffness · F Fᵀ.
 void VibratingStructure::Parts::add_shank(const Reduction &reduction, const Bolt &bolt)
 {
@@ -309,6 +371,7 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
               "vibration: body ", b, " has a stiffness of ", body.K.size(),
               " rows and a mass of ", parts.bodies[b].M.size(),
               ", must be as many and more than none");
+      require_same_places(reduction.bodies[b], body, b);
       hold_eliminated_rows(parts.bodies[b].body);
       parts.thickness.push_back(reduction.bodies[b].thickness);
       std::vector<bool> taken(body.K.size(), false);
@@ -340,9 +403,9 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
    const VectorXd diagonal = parts.M.diagonal(), stiff = parts.K.diagonal();
    for (int c = 0; c < columns; ++c)
    {
-      require(diagonal[c] > 0 || stiff[c] == 0,
-              "vibration: a dof that is not held has a stiffness but a mass of ", diagonal[c],
-              ", must be positive");
+      require(diagonal[c] > 0 || stiff[c] == 0, "vibration: ", parts.called(c),
+              " is not held and has a stiffness but a mass of ", diagonal[c],
+              ", must be positive: a small mass there changes low modes little");
       if (rest[c] && diagonal[c] > 0) { parts.rest.push_back(c); }
    }
 }
@@ -471,7 +534,7 @@ ReducedProblem VibratingStructure::with_modes(const Modes &modes) const
       {
          require(place < 0 || std::abs(z[place]) <= 1e-6 * z.cwiseAbs().maxCoeff(),
                  "modes: a body floats apart from the others at the state about which it "
-                 "vibrates, it must be pressed on one of them or be supported");
+                 "vibrates, it must be pressed on one of them with friction, or be supported");
       }
    }
    const Parts::Answer answer(parts, modes.rigid_coordinates);

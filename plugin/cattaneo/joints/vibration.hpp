@@ -24,7 +24,7 @@ using GluedRows = std::vector<bool>;
 /** The rows that a small vibration about a state leaves as they are. A closed node does not
     open, and one with friction does not slip, even if it stands at its limit of friction: it
     leaves that limit with the first reversal. A closed node without friction slips, and an open
-    one moves freely. Held rows are glued. */
+    one moves freely, as does one that touches without a force. Held rows are glued. */
 GluedRows glued_rows(const ReducedProblem &problem, const ContactState &state);
 
 /// Closed nodes with friction whose state is slip: they stand at the limit of friction.

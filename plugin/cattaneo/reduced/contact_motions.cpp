@@ -41,6 +41,24 @@ ContactMotions contact_motions(const Reduction &reduction)
       }
       made.of_body.emplace_back(body.S.rows(), map.size());
       made.of_body.back().setFromTriplets(entries.begin(), entries.end());
+      if (body.surface.size() == 0 || !body.surface.has_middles()) { continue; }
+      // Unknowns of nodes in the middle of edges are not their displacements.
+      const Eigen::MatrixXd at_nodes = body.surface.at_nodes(Eigen::MatrixXd::Identity(n, n));
+      entries.clear();
+      for (int i = 0; i < n; ++i)
+      {
+         for (int k = 0; k < n; ++k)
+         {
+            if (at_nodes(i, k) == 0) { continue; }
+            for (int c = 0; c < 3; ++c)
+            {
+               entries.emplace_back(c * n + i, c * n + k, at_nodes(i, k));
+            }
+         }
+      }
+      Eigen::SparseMatrix<double> of_nodes(3 * n, 3 * n);
+      of_nodes.setFromTriplets(entries.begin(), entries.end());
+      made.of_body.back() = Eigen::SparseMatrix<double>(of_nodes * made.of_body.back());
    }
 
    // 2. Which coordinates are the problem's, and which are those of ties.
