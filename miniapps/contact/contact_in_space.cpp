@@ -451,6 +451,16 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
    own.scene.reduction = reduce(std::move(condensed), interfaces);
    check_overlaps(joint, own.scene.reduction);
    mark_rims(own.scene, interfaces);
+   std::vector<std::optional<Vector3d>> planes;
+   for (const JointCase::Face &face : joint.faces)
+   {
+      planes.emplace_back();
+      if (face.solid && face.solid->shape == JointCase::Face::Solid::Shape::plane)
+      {
+         planes.back() = face.solid->axis;
+      }
+   }
+   own.corners = nodes_at_corners(own.scene, interfaces, planes);
    for (const InterfaceReport &face : own.scene.reduction.interfaces)
    {
       warn_of_left_out(face);
@@ -564,6 +574,7 @@ void contact_in_space(Study &study, const JointCase &joint, OwnHistory &history,
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, paraview.c_str())); }
    for (const std::string &said : geometry_warnings(reduction, most)) { warn(said); }
+   if (touches) { warn_of_corners(own.corners, most); }
    const ChordalError chords =
       touches ? warn_of_chords(reduction, pressed, away) : ChordalError();
    // Smaller values are round-off of plane sides.

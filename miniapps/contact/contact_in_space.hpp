@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/own_bodies.hpp"
+#include "contact/rims.hpp"
 
 namespace miniapp
 {
@@ -16,6 +17,7 @@ struct BodiesInSpace
    double accuracy = 0; ///< estimated relative error of the stiffness, the worst
    std::vector<std::vector<Holding>> holdings;  ///< of each body
    std::optional<cattaneo::BoltedJoint> bolted; ///< for bolts that are tightened to a force
+   std::vector<NodeAtCorner> corners;           ///< contact nodes with more than one normal
 };
 
 /// InputError naming body and key. The case must outlive them.

@@ -1,7 +1,10 @@
 #include "contact/rims.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -172,6 +175,100 @@ void mark_rims(Scene &scene, const std::vector<Interface> &given)
       }
    }
    problem.rim.assign(marked.begin(), marked.end());
+}
+
+namespace
+{
+
+/// The largest angle between faces of a side at each of its nodes, in degrees.
+std::vector<double> turns_of(const ContactSurface &side)
+{
+   std::vector<std::vector<Vector3d>> normals(side.size());
+   for (const std::vector<Index> &face : side.faces)
+   {
+      const Vector3d &from = side.nodes[face[0]].position;
+      Vector3d normal = (side.nodes[face[1]].position - from)
+                           .cross(side.nodes[face[2]].position - from)
+                           .normalized();
+      Vector3d into = Vector3d::Zero();
+      for (const Index node : face) { into += side.nodes[node].normal(); }
+      if (normal.dot(into) < 0) { normal = -normal; }
+      for (const Index node : face) { normals[node].push_back(normal); }
+   }
+   std::vector<double> turns;
+   for (const std::vector<Vector3d> &its : normals)
+   {
+      double least = 1; // cosine
+      for (std::size_t a = 0; a < its.size(); ++a)
+      {
+         for (std::size_t b = 0; b < a; ++b) { least = std::min(least, its[a].dot(its[b])); }
+      }
+      turns.push_back(std::acos(std::clamp(least, -1.0, 1.0)) * 180 / std::acos(-1.0));
+   }
+   return turns;
+}
+
+} // namespace
+
+std::vector<NodeAtCorner>
+nodes_at_corners(const Scene &scene, const std::vector<Interface> &given,
+                 const std::vector<std::optional<Eigen::Vector3d>> &planes)
+{
+   std::vector<NodeAtCorner> found;
+   for (std::size_t k = 0; k < given.size(); ++k)
+   {
+      const InterfaceReport &face = scene.reduction.interfaces[k];
+      if (face.tied || face.nodes == 0) { continue; }
+      for (Index i = 0; i < face.nodes && planes[k]; ++i)
+      {
+         const Vector3d normal = face.frames.row(i).segment<3>(6);
+         const double cosine = std::abs(normal.dot(planes[k]->normalized())),
+                      degrees = std::acos(std::min(cosine, 1.0)) * 180 / std::acos(-1.0);
+         if (degrees <= 15) { continue; }
+         found.push_back({face.first + i, degrees, face.places.row(i), face.name, true});
+      }
+      for (const InterfaceSide *side : {&given[k].first, &given[k].second})
+      {
+         if (side->body < 0 || planes[k]) { continue; }
+         const std::vector<double> turns = turns_of(side->surface);
+         for (Index node = 0; node < side->surface.size(); ++node)
+         {
+            // 30 degrees is the angle between the edges of a circle of twelve nodes.
+            if (turns[node] <= 30.5) { continue; }
+            const Vector3d place = side->surface.nodes[node].position;
+            Index nearest = 0;
+            const double away =
+               (face.places.rowwise() - place.transpose()).rowwise().norm().minCoeff(&nearest);
+            if (away >= 0.5 * face.spacing[nearest]) { continue; }
+            found.push_back({face.first + nearest, turns[node], place, face.name, false});
+         }
+      }
+   }
+   return found;
+}
+
+void warn_of_corners(const std::vector<NodeAtCorner> &corners, const Eigen::VectorXd &p)
+{
+   const NodeAtCorner *worst = nullptr;
+   for (const NodeAtCorner &one : corners)
+   {
+      const bool bears = p[one.node] > 1e-9 * p.maxCoeff();
+      if (bears && (!worst || one.degrees > worst->degrees)) { worst = &one; }
+   }
+   if (!worst) { return; }
+   const std::string at =
+      told("at (", worst->place[0], ", ", worst->place[1], ", ", worst->place[2], ")");
+   const long degrees = std::lround(worst->degrees);
+   warn(worst->off_plane
+           ? told("interface '", worst->interface, "': node ", worst->node, " ", at,
+                  " carries a force although its normal is ", degrees,
+                  " degrees off that of the plane. Forces and areas are wrong there: name no "
+                  "boundary around a corner as contact")
+           : told("interface '", worst->interface, "': its side turns by ", degrees,
+                  " degrees ", at,
+                  ", where it carries a force. A contact node has one normal, so forces and "
+                  "areas are wrong there: make each face a separate interface, or give a curve "
+                  "more nodes"));
 }
 
 } // namespace miniapp

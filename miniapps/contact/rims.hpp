@@ -3,6 +3,8 @@
 #include "common/scene.hpp"
 
 #include <cattaneo/reduced/interfaces.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace miniapp
@@ -12,5 +14,24 @@ namespace miniapp
 /// boundaries of both sides go on beyond it (ReducedProblem::rim). A march warns if they bear
 /// forces. `given`: the interfaces of the reduction.
 void mark_rims(Scene &scene, const std::vector<cattaneo::Interface> &given);
+
+/// A contact node of the problem at which the side of a body turns by more than 30 degrees, or
+/// on a plane obstacle one whose normal is more than 15 degrees off that of the plane.
+struct NodeAtCorner
+{
+   Eigen::Index node = 0;
+   double degrees = 0;
+   Eigen::Vector3d place{0, 0, 0}; ///< of the corner
+   std::string interface;
+   bool off_plane = false;
+};
+
+/// `planes`: of each interface the normal of its plane obstacle; none: it has another one.
+std::vector<NodeAtCorner>
+nodes_at_corners(const Scene &scene, const std::vector<cattaneo::Interface> &given,
+                 const std::vector<std::optional<Eigen::Vector3d>> &planes);
+
+/// Warns of the sharpest one that bears in a march; p: the largest force of each node.
+void warn_of_corners(const std::vector<NodeAtCorner> &corners, const Eigen::VectorXd &p);
 
 } // namespace miniapp

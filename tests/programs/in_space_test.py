@@ -667,6 +667,25 @@ def test_contact_that_is_cut_off_is_warned_of(run):
     assert cut in run.case(both).warned()
 
 
+def test_a_side_around_a_corner_is_warned_of(run):
+    """On a plane the edge of a chamfer of 45 degrees bears with a normal of 22 degrees, that of one of 11 degrees with 6. In a bore a block
+    stands on its edges, of which one belongs to two sides of a contact."""
+    nodes, solids, faces = solid((4, 2, 1), (2, 1, 2), "hexahedra")
+    for slope, words in ((1, "degrees off that of the plane"), (0.2, "")):
+        slanted = [[x, y, slope * (x - 1) if z == 0 and x > 1 else z] for x, y, z in nodes]
+        case = block("P pressure 6 0.01")
+        case["bodies"]["block"]["mesh"] = run.write("chamfer.mesh", mfem_text(slanted, solids, faces))
+        del case["bodies"]["block"]["block"]
+        case["interfaces"]["floor"]["between"] = "block:1"
+        said = run.case(case).warned()
+        assert words in said and ("off that" in said) == (words != ""), said
+    case = block("P traction top 0 0 -0.001", support="front:y")
+    case["interfaces"]["floor"]["obstacle"] = {"cylinder": {"point": [1, 0, 0.5], "axis": [0, 1, 0], "radius": -1.12}}
+    assert "turns by" not in run.case(case).warned()
+    case["interfaces"]["floor"]["between"] = "block:bottom,left"
+    assert "its side turns by 90 degrees at (0, " in run.case(case).warned()
+
+
 def test_a_ball_may_be_smaller_than_the_side(run):
     """A ball of radius 3 on a block of 10 × 10: nodes beside it are open, and its force is carried. A rectangle of the side alone, by
     intervals along two axes, has the same pressures."""
