@@ -1,12 +1,16 @@
-"""Bodies in space against closed forms and against the plane: loss over amplitude, a ring, a dovetail of finite width."""
+"""Bodies in space against closed forms and against the plane: a meshed sphere on a block, loss over amplitude, a ring, a dovetail."""
 
 import math
 import sys
+
+import pytest
 
 from programs import ROOT, even, mesh_text, near, near_all, near_relative, rectangle, shipped
 
 sys.path.insert(0, str(ROOT / "meshes"))
 import solids  # noqa: E402
+
+pytestmark = pytest.mark.rest
 
 
 class Mindlin:
@@ -20,6 +24,13 @@ class Mindlin:
         self.softness = 8 / young
         self.slide = 3 * friction * force / (16 * self.a) * self.softness
 
+    def stick(self, s):
+        return self.a * (1 - s) ** (1 / 3)
+
+    def compliance(self, share):
+        """Of the sticking contact under this share of the force."""
+        return self.softness / (8 * self.a * share ** (1 / 3))
+
     def loss(self, s):
         """Of a cycle of Q between ± s f P, by Masing's rule."""
         return 4 * self.friction * self.force * self.slide * (s * (1 - (1 - s) ** (2 / 3)) - 2 * (s - 0.6 * (1 - (1 - s) ** (5 / 3))))
@@ -28,6 +39,49 @@ class Mindlin:
 def at_point(columns, key, time):
     """A column of a table at a point of the history."""
     return next(value for value, t in zip(columns[key], columns["time"]) if abs(t - time) < 1e-9)
+
+
+def pin(run, finer, friction, history, shear, increments, **keys):
+    """The shipped pin and block at ν = 0 with elements at the contact so much finer: the whole is pressed by 1000 and sheared by `shear`."""
+    case = shipped("pin_on_block")
+    run.write("pin.msh", solids.gmsh_text(solids.pin(finer)))
+    case["bodies"]["pin"].update(mesh=str(run.folder / "pin.msh"), poisson=0)
+    case["bodies"]["block"]["poisson"] = 0
+    for axis in case["bodies"]["block"]["block"].values():
+        # Cells at the contact have no growth.
+        axis["cells"] = [n * finer if growth == 1 else n + finer - 1 for n, growth in zip(axis["cells"], axis["growth"])]
+    case["bodies"]["pin"]["guides"]["x"]["value"] = shear / 2
+    case["interfaces"]["end"]["friction"] = friction
+    for key in ("cycle-start", "cycles"):
+        del case[key]
+    case.update(history=history, increments=increments, stepping="fixed", **keys)
+    return run.case(case, "--csv", run.folder / "pin"), run.columns("pin_history.csv")
+
+
+def test_meshed_sphere_is_hertz_cattaneo_and_mindlin(run):
+    """Half of a pin with a spherical end on half of a block, nodes that do not match: peak pressure, radii of contact and stick,
+    compliance and loss, to what halving the elements changes, and 4e-3 for the chords of the sphere and the size of the bodies."""
+    exact, s = Mindlin(210e3, 50, 0.3, 1000), 0.8
+    found = []
+    for finer in (1, 2):
+        got, _ = pin(run, finer, 0.3, ["P=0", "P=1", "Q=1", "Q=-1", "Q=1"], s * 300, 6, **{"cycle-start": 2, "cycles": 1})
+        areas = {row["state"]: row["area"] for row in got["areas"]}
+        near_all([row["imbalance"] for row in got["balance"]], 0, 1e-9)
+        near_relative(abs(got.interface("end")["force_z"]), 500, 1e-9)
+        near_relative(abs(got.interface("end")["force_x"]), s * 150, 1e-9)
+        # In full stick the contact's part of the compliance is that which changes with the pressing force.
+        shear = 3
+        _, stuck = pin(run, finer, 10, ["P=0", "P=1", "Q=1", "Q=0", "P=0.25", "Q=1"], shear, 2)
+        soft = [(at_point(stuck, "displacement Q", end) - at_point(stuck, "displacement Q", end - 1)) / shear for end in (2, 5)]
+        found.append({"peak": got["peak_pressure"] / exact.peak,
+                      "contact": math.sqrt(2 * areas["contact"] / math.pi) / exact.a,
+                      "stick": math.sqrt(2 * areas["stick"] / math.pi) / exact.stick(s),
+                      "compliance": (soft[1] - soft[0]) / (exact.compliance(0.25) - exact.compliance(1)),
+                      "loss": 2 * got["dissipation"][-1] / exact.loss(s)})
+    for key, most in (("peak", 0.02), ("contact", 0.06), ("stick", 0.06), ("compliance", 0.2), ("loss", 0.06)):
+        coarse, fine = (each[key] for each in found)
+        assert abs(fine - coarse) < most, (key, found)
+        near(fine, 1, abs(fine - coarse) + 4e-3)
 
 
 def pressed_by_a_sphere(run, step, shears):
