@@ -111,8 +111,13 @@ def draw_lines(axes, comments, rows):
         axes.set_ylim(min(inner) - gap, max(inner) + gap)
     axes.grid(True, color="#DDDDDD", linewidth=0.6)
     axes.set_axisbelow(True)
-    for line in axes.get_lines():  # not visible on a logarithmic axis
-        if comments["scale"] and comments["scale"][0] != "semilogx" and len(line.get_ydata()) and not max(line.get_ydata()) > 0:
+    for line in axes.get_lines():
+        shown = [y for y in line.get_ydata() if math.isfinite(y)]
+        if len(shown) == 1 and line.get_marker() in ("", "None", None):  # a line through one point is not visible
+            line.set_marker("o")
+            line.set_markersize(4)
+        # Nor are values on a logarithmic axis that are not positive.
+        if comments["scale"] and comments["scale"][0] != "semilogx" and len(line.get_ydata()) and not any(y > 0 for y in shown):
             line.set_label(f"{line.get_label()} (no loss, not on this axis)" if "loss" in "".join(comments["title"]).lower() else f"{line.get_label()} (0, not on this axis)")
     said = labelled - {""}
     if len(labelled) > 1 or said and not said & set(comments["y"][0].split()):  # the axis names a single curve
