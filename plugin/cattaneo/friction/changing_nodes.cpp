@@ -6,6 +6,7 @@
 #include <cattaneo/friction/changing_nodes.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -367,37 +368,90 @@ std::vector<bool> ChangingNodes::guess(const MatrixXd &changes, const ContactSta
    return found;
 }
 
+/// A march begins at a state.
+void ChangingNodes::Watch::begin(const ReducedProblem &problem, const ContactState &state)
+{
+   cycles = false;
+   status = state.status;
+   changes.assign(problem.nodes(), false);
+   least = VectorXd::Constant(problem.nodes(), std::numeric_limits<double>::infinity());
+   most = VectorXd::Zero(problem.nodes());
+   look(problem, state);
+}
+
+void ChangingNodes::Watch::look(const ReducedProblem &problem, const ContactState &state)
+{
+   const VectorXd forces = state.forces();
+   for (Index i = 0; i < problem.nodes(); ++i)
+   {
+      if (slips(state.status[i]) || state.status[i] != status[i]) { changes[i] = true; }
+      if (changes[i]) { continue; }
+      const double left = closed(status[i]) ? left_of_stick(problem, forces, i)
+                                            : problem.C()(i, i) * (state.w[i] + problem.gap[i]);
+      least[i] = std::min(least[i], left);
+      most[i] = std::max(most[i], left);
+   }
+}
+
+/// Nodes that changed their states, or came near to that.
+std::vector<bool> ChangingNodes::Watch::found() const
+{
+   constexpr double near = 0.05;
+   std::vector<bool> nodes = changes;
+   for (std::size_t i = 0; i < nodes.size(); ++i)
+   {
+      const auto at = static_cast<Index>(i);
+      nodes[i] = nodes[i] || !(least[at] > near * most[at]);
+   }
+   return nodes;
+}
+
 /// Chooses the nodes for a march. False if all nodes are needed.
 bool ChangingNodes::choose(const LoadHistory &history, const ContactState &state)
 {
-   // 1. The present choice, if loads swing no further and no node has to join.
    MatrixXd changes = history.multipliers;
    changes.colwise() -= state.multipliers;
    const double swing =
       (changes.rowwise().maxCoeff().cwiseMax(0.0) - changes.rowwise().minCoeff().cwiseMin(0.0))
          .maxCoeff();
    const bool same = swing <= swing_ * (1 + 1e-9);
-   if (part_ && same && joined_.empty() && part_->fits(state.status)) { return true; }
-   // 2. A new one. Nodes that were kept before for the same swing are kept again.
-   std::vector<bool> keeps = guess(changes, state);
-   if (keeps.empty()) { return false; }
-   if (part_ && same)
+   const auto count = [](const std::vector<bool> &nodes)
+   { return std::count(nodes.begin(), nodes.end(), true); };
+   // 1. For the same range, nodes that have changed in the cycles before, if they are much
+   // fewer than the present ones, and those that had to join.
+   if (!same) { joined_.clear(); }
+   std::vector<bool> keeps;
+   if (same && watch_.cycles)
    {
-      for (const Index i : part_->nodes) { keeps[i] = true; }
+      keeps = watch_.found();
+      for (const Index i : joined_) { keeps[i] = true; }
+      if (4 * count(keeps) > 3 * kept()) { keeps.clear(); }
    }
-   for (const Index i : std::exchange(joined_, {})) { keeps[i] = true; }
+   if (part_ && same && keeps.empty())
+   {
+      if (!joins_ && part_->fits(state.status)) { return true; }
+      keeps.assign(problem_.nodes(), false);
+      for (const Index i : part_->nodes) { keeps[i] = true; }
+      for (const Index i : joined_) { keeps[i] = true; }
+   }
+   // 2. Otherwise a guess.
+   if (keeps.empty()) { keeps = guess(changes, state); }
+   if (keeps.empty()) { return false; }
+   for (std::size_t i = 0; i < keeps.size(); ++i)
+   {
+      if (slips(state.status[i])) { keeps[i] = true; }
+   }
+   // 3. Their problem.
+   joins_ = false;
    swing_ = std::max(swing, same ? swing_ : 0.0);
    part_.reset();
+   if (count(keeps) == 0) { keeps[0] = true; }
    std::vector<Index> stuck;
    for (Index i = 0; i < problem_.nodes(); ++i)
    {
       if (!keeps[i] && closed(state.status[i])) { stuck.push_back(i); }
    }
-   if (std::count(keeps.begin(), keeps.end(), true) == 0) { keeps[0] = true; }
-   if (4 * std::count(keeps.begin(), keeps.end(), true) > 3 * problem_.nodes() || !holds(stuck))
-   {
-      return false;
-   }
+   if (4 * count(keeps) > 3 * problem_.nodes() || !holds(stuck)) { return false; }
    part_ = std::make_unique<Part>(problem_, solver_.settings(), keeps, state.status);
    if (!part_->solver) { part_.reset(); }
    return part_ != nullptr;
@@ -407,9 +461,20 @@ MarchReport ChangingNodes::march(const LoadHistory &history, ContactState &state
                                  const MarchSettings &settings, const MarchObserver &observer)
 {
    repeats_ = false;
-   if (!worthwhile_ || std::exchange(all_, false) || !choose(history, state))
+   if (!worthwhile_) { return cattaneo::march(solver_, history, state, settings, observer); }
+   const bool all = std::exchange(all_, false) || !choose(history, state);
+   watch_.begin(problem_, state);
+   if (all)
    {
-      return cattaneo::march(solver_, history, state, settings, observer);
+      MarchReport report =
+         cattaneo::march(solver_, history, state, settings,
+                         [&](const ContactState &now, const IncrementRecord &record)
+                         {
+                            watch_.look(problem_, now);
+                            observer(now, record);
+                         });
+      watch_.cycles = !report.cycles.empty();
+      return report;
    }
    // 1. The march of the nodes that are kept. It stops where one that was left out would change
    // its state.
@@ -424,16 +489,18 @@ MarchReport ChangingNodes::march(const LoadHistory &history, ContactState &state
                       {
                          if (repeats_) { return; }
                          last = part_->all_of(now);
-                         joined_ = part_->wrong(last);
-                         if (!joined_.empty())
+                         const std::vector<Index> wrong = part_->wrong(last);
+                         if (!wrong.empty())
                          {
-                            repeats_ = stop = true;
+                            joined_.insert(joined_.end(), wrong.begin(), wrong.end());
+                            joins_ = repeats_ = stop = true;
                             stretch_ *= 1.25;
                             return;
                          }
                          IncrementRecord record = found;
                          record.multipliers.conservativeResize(loads);
                          record.conjugates.conservativeResize(loads);
+                         watch_.look(problem_, last);
                          observer(last, record);
                          if (settings.monitor.stopped()) { stop = true; }
                       });
@@ -451,6 +518,7 @@ MarchReport ChangingNodes::march(const LoadHistory &history, ContactState &state
       return report;
    }
    // 3. Results of all nodes.
+   watch_.cycles = !report.cycles.empty();
    state = std::move(last);
    for (CycleRecord &cycle : report.cycles)
    {

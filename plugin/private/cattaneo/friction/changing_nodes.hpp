@@ -13,7 +13,8 @@ namespace cattaneo
     are eliminated, and sticking nodes do not move. Their gaps and forces follow from the nodes
     that are kept.
 
-    The first choice is a guess from the linear response. Every state is checked at all nodes:
+    The first choice is a guess from the linear response, and the next ones are the nodes that
+    changed their states in the cycles before. Every state is checked at all nodes:
     if a node that was left out would change its state, it is kept from then on, and the march
     has to be repeated from a state that it reached before. So the states are those of a march
     of all nodes, to round-off. */
@@ -38,6 +39,18 @@ public:
 
 private:
    struct Part;
+   /// How near nodes come to the limits of their states in a march.
+   struct Watch
+   {
+      void begin(const ReducedProblem &problem, const ContactState &state);
+      void look(const ReducedProblem &problem, const ContactState &state);
+      std::vector<bool> found() const;
+
+      bool cycles = false; ///< did the march go through at least one?
+      std::vector<NodeState> status;
+      std::vector<bool> changes;
+      Eigen::VectorXd least, most; ///< forces that are left to the limit
+   };
 
    bool choose(const LoadHistory &history, const ContactState &state);
    std::vector<bool> guess(const Eigen::MatrixXd &changes, const ContactState &state) const;
@@ -50,7 +63,9 @@ private:
    std::unique_ptr<Part> part_; // none: all nodes are used
    double swing_ = 0;           // range of the loads for which the nodes were chosen
    double stretch_ = 1.5;       // of the linear response, when nodes are chosen
-   std::vector<Index> joined_;  // nodes that had been left out before
+   Watch watch_;                // of the last march
+   std::vector<Index> joined_;  // nodes that had been left out before, for this range
+   bool joins_ = false;         // some of them have to be added
    bool repeats_ = false;
    bool all_ = false; // the next march needs all nodes
 };
