@@ -247,6 +247,33 @@ nodes_at_corners(const Scene &scene, const std::vector<Interface> &given,
    return found;
 }
 
+void warn_of_seams(const Scene &scene, const std::vector<Interface> &given)
+{
+   for (std::size_t k = 0; k < given.size(); ++k)
+   {
+      const InterfaceReport &face = scene.reduction.interfaces[k];
+      if (face.matching || face.bodies[1] < 0) { continue; }
+      const ContactSurface &side = (face.of_second ? given[k].second : given[k].first).surface;
+      double lost = 0;
+      for (const SurfaceNode &node : side.nodes)
+      {
+         const bool its = std::any_of(face.in_rings.begin(), face.in_rings.end(),
+                                      [&](const Vector3d &place)
+                                      { return (place - node.position).norm() == 0; });
+         lost += its ? node.weight : 0;
+      }
+      const double share = lost / (lost + face.weights.sum());
+      if (share <= 0.1) { continue; }
+      const CondensedBody &body = scene.reduction.bodies[face.bodies[0]];
+      warn(told("interface '", face.name, "': nodes of body ", body.name, " with up to ",
+                std::lround(100 * share),
+                " % of its area belong to other interfaces, which meet it within faces of this "
+                "body. Forces act there on the other nodes of these faces, so that pressures "
+                "and moments are means. Make the other side the slave (key 'slave'), or end "
+                "faces where interfaces end"));
+   }
+}
+
 void warn_of_corners(const std::vector<NodeAtCorner> &corners, const Eigen::VectorXd &p)
 {
    const NodeAtCorner *worst = nullptr;

@@ -31,6 +31,10 @@ std::vector<NodeAtCorner>
 nodes_at_corners(const Scene &scene, const std::vector<cattaneo::Interface> &given,
                  const std::vector<std::optional<Eigen::Vector3d>> &planes);
 
+/// Warns of interfaces that end within faces of the slave, where other interfaces have more
+/// than a tenth of its area.
+void warn_of_seams(const Scene &scene, const std::vector<cattaneo::Interface> &given);
+
 /// Warns of the sharpest one that bears in a march; p: the largest force of each node.
 void warn_of_corners(const std::vector<NodeAtCorner> &corners, const Eigen::VectorXd &p);
 

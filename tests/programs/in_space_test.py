@@ -568,6 +568,27 @@ def test_a_seam_within_faces_takes_the_other_side(run):
     default, below = run.case(case()), run.case(case("second"))
     for name in "ab":
         near_relative(default.interface(name)["normal"], below.interface(name)["normal"], 0.01)
+    # The nodes at x = 5 and y of the upper block belong to the first interface.
+    said = run.case(case("first")).warned()
+    assert "interface 'b': nodes of body up with up to" in said and "interface 'a': nodes" not in said, said
+    assert default.warned() == below.warned() == ""
+
+
+def test_a_side_without_free_nodes_is_not_taken(run):
+    """Three blocks below meet within the only face of the block above, whose four nodes two of them have: the third one has nodes of its own."""
+    def one(x, y, z, n, **keys):
+        return {"block": brick((x, n), (y, n), (z, 1)), "young": 1000, "poisson": 0.0, **keys}
+    case = {"analysis": "space", "order": 1, "history": ["P=0", "P=1"],
+            "bodies": {"up": one([0, 10], [0, 6], [0, 4], 1, load="P traction top 0 0 -10"),
+                       **{name: one(x, y, [-3, 0], n, support="bottom:xyz") for name, x, y, n in
+                          (("l1", [-2, 6.9], [0, 6], 2), ("l2", [6.9, 12], [0, 2.12], 1), ("l3", [6.9, 12], [2.12, 6], 1))}},
+            "interfaces": {name: {"between": ["up:bottom", low + ":top"], "friction": 0.2} for name, low in (("a", "l1"), ("b", "l2"), ("c", "l3"))}}
+    got = run.case(case)
+    near(sum(got.interface(name)["normal"] for name in "abc"), 600, 1e-9)
+    near_all([row["imbalance"] for row in got["balance"]], 0, 1e-9)
+    for face in case["interfaces"].values():
+        face["slave"] = "first"
+    assert "is free of other interfaces: make the other side the slave" in run.refused(case)
 
 
 def test_a_tie_over_a_distance_is_warned_of(run):

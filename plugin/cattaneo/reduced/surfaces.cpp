@@ -344,8 +344,22 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
                                                                   : coarser < 0;
       if (first == second ? by_spacing : second) { exchange(); }
    }
+   // A side none of whose nodes can have a row is refused, unless the other side can.
+   const auto attempt = [&](MetInterface &of, JoinedNodes &nodes, std::string &why)
+   {
+      try
+      {
+         return rows_with_slave(bodies, nodes, of, why);
+      }
+      catch (const InputError &error)
+      {
+         if (!free) { throw; }
+         why = error.what();
+         return std::vector<ContactRow>();
+      }
+   };
    const JoinedNodes before = joined;
-   std::vector<ContactRow> rows = rows_with_slave(bodies, joined, met, refused);
+   std::vector<ContactRow> rows = attempt(met, joined, refused);
    // Interfaces may end within faces of this side, so that the first of them has their nodes.
    const double lost = met.surfaces.given_away;
    if (free && refused.empty() && lost > 0.05 * met.surfaces.weights.sum())
@@ -355,15 +369,7 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
       turned.of_second = !turned.of_second;
       JoinedNodes its = before;
       std::string why;
-      std::vector<ContactRow> other;
-      try
-      {
-         other = rows_with_slave(bodies, its, turned, why);
-      }
-      catch (const InputError &error)
-      {
-         why = error.what();
-      }
+      std::vector<ContactRow> other = attempt(turned, its, why);
       if (why.empty() && turned.surfaces.given_away < 0.5 * lost)
       {
          met = std::move(turned);
@@ -375,7 +381,7 @@ std::vector<ContactRow> rows_of_mortar(const std::vector<CondensedBody> &bodies,
    {
       exchange();
       std::string other;
-      rows = rows_with_slave(bodies, joined, met, other);
+      rows = attempt(met, joined, other);
       if (other.empty()) { refused.clear(); }
    }
    if (!refused.empty()) { return {}; }
