@@ -22,6 +22,7 @@
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <limits>
 
 using namespace cattaneo;
 using namespace miniapp;
@@ -72,36 +73,72 @@ std::vector<VibratingBody> with_mass(const JointCase &joint, const Own &own)
    return all;
 }
 
-/// A sentence if stiffness, density and length cannot be in the units that the case names.
+/// Says the speed of sound √(E/ρ) of each body, and warns where it or the density is that of no
+/// solid. Only where the case names units that are known here.
 template <class Own>
-void warn_of_units(const JointCase &joint, const Own &own)
+void report_units(Study &study, const JointCase &joint, const Own &own)
 {
    const std::map<std::string, double> metres{{"m", 1},      {"cm", 1e-2}, {"mm", 1e-3},
                                               {"um", 1e-6},  {"µm", 1e-6}, {"in", 0.0254},
-                                              {"ft", 0.3048}};
-   const auto unit = metres.find(joint.unit_of_length);
-   if (unit == metres.end()) { return; }
+                                              {"ft", 0.3048}},
+      newtons{{"N", 1},          {"mN", 1e-3},      {"daN", 10},      {"kN", 1e3},
+              {"MN", 1e6},       {"uN", 1e-6},      {"µN", 1e-6},     {"kgf", 9.80665},
+              {"kp", 9.80665},   {"lbf", 4.448222}, {"lb", 4.448222}, {"kip", 4448.222},
+              {"kips", 4448.222}};
+   const auto length = metres.find(joint.unit_of_length);
+   if (length == metres.end()) { return; }
+   const auto force = newtons.find(joint.unit_of_force);
+   // A unit of density in kg/m³: force · time² / length⁴.
+   const double unit =
+      force == newtons.end() ? none : force->second / std::pow(length->second, 4);
+   constexpr double densest = 23000; // osmium has 22,590 kg/m³
+   const std::string accelerated = text(
+      "With %s and %s the unit of density is a mass per %s³, and 1 %s accelerates that mass "
+      "by 1 %s/s²",
+      joint.unit_of_length.c_str(), joint.unit_of_force.c_str(), joint.unit_of_length.c_str(),
+      joint.unit_of_force.c_str(), joint.unit_of_length.c_str());
+   std::vector<std::pair<std::string, std::string>> said; // speeds, names of bodies
    std::size_t mesh = 0;
    for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
       if (!joint.bodies[b].matrix.empty()) { continue; } // nothing is known of it
       const std::vector<Material> &its = own.materials[mesh];
       const std::vector<double> &densities = own.densities[mesh++];
+      const std::string &name = joint.bodies[b].name;
+      double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+      bool warned = false;
       for (std::size_t a = 0; a < std::max(its.size(), densities.size()); ++a)
       {
          const double young = its[its.size() == 1 ? 0 : a].young,
                       density = densities[densities.size() == 1 ? 0 : a],
-                      speed = std::sqrt(young / density) * unit->second;
-         if (speed >= 100 && speed <= 20000) { continue; }
-         warn(text(
-            "body %s: Young's modulus %g and density %g give a speed of sound of %g m/s in the "
-            "units that the case names. Solids have 100 to 20,000 m/s. With %s and %s the unit "
-            "of density is a mass per %s³, and 1 %s accelerates that mass by 1 %s/s²",
-            joint.bodies[b].name.c_str(), young, density, speed, joint.unit_of_length.c_str(),
-            joint.unit_of_force.c_str(), joint.unit_of_length.c_str(),
-            joint.unit_of_force.c_str(), joint.unit_of_length.c_str()));
-         break;
+                      speed = std::sqrt(young / density) * length->second;
+         slowest = std::min(slowest, speed);
+         fastest = std::max(fastest, speed);
+         if (warned) { continue; }
+         warned = true;
+         if (speed < 100 || speed > 20000)
+         {
+            warn(text("body %s: Young's modulus %g and density %g give a speed of sound of %g "
+                      "m/s in the units that the case names. Solids have 100 to 20,000 m/s. %s",
+                      name.c_str(), young, density, speed, accelerated.c_str()));
+         }
+         else if (density * unit > densest)
+         {
+            warn(text("body %s: density %g is %.3g kg/m³ in the units that the case names, "
+                      "where no solid has more than 23,000 and steel has %.3g (7850 kg/m³). %s",
+                      name.c_str(), density, density * unit, 7850 / unit, accelerated.c_str()));
+         }
+         else { warned = false; }
       }
+      study.results["speeds_of_sound"][name] = {{"least", slowest}, {"most", fastest}};
+      const std::string speeds =
+         text("%.4g", slowest) + (fastest > slowest ? text(" to %.4g", fastest) : "");
+      if (said.empty() || said.back().first != speeds) { said.emplace_back(speeds, name); }
+      else { said.back().second += ", " + name; }
+   }
+   for (const auto &[speeds, names] : said)
+   {
+      study.say("   speed of sound √(E/ρ) in " + names + ": " + speeds + " m/s");
    }
 }
 
@@ -136,6 +173,35 @@ Index assembled_at(const LoadHistory &history, const JointCase &joint,
    return at >= 0 ? at : cycle_start >= 0 ? cycle_start : points - 1;
 }
 
+/// Does nothing but the missing friction of some interfaces let the bodies float apart? Then
+/// says so in `why`.
+bool slides_freely(const VibratingStructure &structure, const ReducedProblem &problem,
+                   const ContactState &state, const std::vector<InterfaceReport> &faces,
+                   const Modes &modes, std::string &why)
+{
+   if (modes.rigid == 0) { return false; }
+   GluedRows rough = glued_rows(problem, state);
+   const Index n = problem.nodes();
+   std::string names;
+   for (const InterfaceReport &face : faces)
+   {
+      bool smooth = false;
+      for (Index i = face.first; !face.tied && i < face.first + face.nodes; ++i)
+      {
+         if (!closed(state.status[i]) || problem.friction[i] > 0) { continue; }
+         smooth = true;
+         for (Index row = i; row < problem.slips(); row += n) { rough[row] = true; }
+      }
+      if (smooth) { names += (names.empty() ? "" : ", ") + face.name; }
+   }
+   // With friction there fewer motions would be free.
+   if (names.empty() || structure.modes(rough, 1).rigid == modes.rigid) { return false; }
+   why = "friction is 0 at interface " + names +
+         ", and nothing else holds the bodies there along it: they slide apart under the "
+         "forces of a mode, and no mode has a loop. Friction or a support must hold them";
+   return true;
+}
+
 /// Draws which share of the loss each node of a surface has, per area. Nodes that lose nothing
 /// are shown as stick.
 void map_of_losses(Study &study, const Reduction &reduction, Index mode,
@@ -167,8 +233,8 @@ void vibrate(Study &study, const CaseOfJoint &options, ModalCurves &curves,
    require(problem.nodes() > 0, "all interfaces are tied: the joint is linear, it has one "
                                 "frequency for each mode and no damping");
    std::vector<VibratingBody> bodies = with_mass(joint, own);
-   warn_of_units(joint, own);
    study.condensed(own.scene);
+   report_units(study, joint, own);
 
    // 2. The march to the state about which it vibrates.
    LoadHistory history = load_history("history", options.history, problem);
@@ -213,6 +279,15 @@ void vibrate(Study &study, const CaseOfJoint &options, ModalCurves &curves,
    const VibratingStructure structure(own.scene.reduction, std::move(bodies), shanks);
    study.say(text("At point %ld of the history:", static_cast<long>(point)));
    const Modes modes = curves.report_modes(structure, problem, state, joint);
+
+   if (std::string why;
+       slides_freely(structure, problem, state, own.scene.reduction.interfaces, modes, why))
+   {
+      warn(why);
+      study.results["message"] = why;
+      study.code = 2;
+      return;
+   }
 
    // 4. Loops of each mode at each amplitude.
    if (joint.in_space())

@@ -151,6 +151,14 @@ void leave_round_off(ModalLoop &loop, double work)
    loop.node_dissipation.setZero();
 }
 
+/// Was no loop found, for another reason than that the joint slides?
+bool fails(const ModalLoop &loop)
+{
+   const bool marched =
+      loop.status == FrictionStatus::converged || loop.status == FrictionStatus::not_unique;
+   return !std::isfinite(loop.sliding_force) && !(loop.force > 0 && loop.steady && marched);
+}
+
 /// Draws the loss by friction at each node, along each interface that loses a hundredth or
 /// more.
 void draw_along(Panel &panel, const std::string &label,
@@ -285,6 +293,14 @@ Modes ModalCurves::report_modes(const VibratingStructure &structure,
       for (const double moved : modes.effective_mass.row(k)) { row.emplace_back(moved / mass); }
       study_.row(table, row);
    }
+   for (Index k = 1; k < modes.omega.size(); ++k)
+   {
+      if (modes.omega[k] - modes.omega[k - 1] > 1e-4 * modes.omega[k]) { continue; }
+      warn(
+         text("modes %ld and %ld have the same frequency to 0.01 %%: their shapes are any two "
+              "of a family, and so are their loops and damping ratios",
+              static_cast<long>(k), static_cast<long>(k + 1)));
+   }
    return modes;
 }
 
@@ -395,23 +411,38 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
       }
       std::sort(sizes.begin(), sizes.end());
       sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
-      require(sizes.front() >= least, name, ": amplitude ",
-              sizes.front() * (kind_ == "point" ? at_point : 1), " must be at least ",
-              least * (kind_ == "point" ? at_point : 1),
+      const double unit = kind_ == "point" ? at_point : 1; // of a size, as it was asked for
+      const std::string kind = kind_ == "energy"  ? "energy"
+                               : kind_ == "point" ? "displacement at " + at_
+                                                  : "amplitude";
+      require(sizes.front() >= least, name, ": ", kind, " ", sizes.front() * unit,
+              " must be at least ", least * unit,
               ": forces of a smaller one are round-off of those that hold the joint together");
       ModalLoop drawn;
       std::vector<ModalLoop> found =
          modal_curve(solver, problem, state, name, glued, sizes, settings);
       for (ModalLoop &loop : found) { leave_round_off(loop, work); }
+      if (stated_.empty())
+      {
+         // A range of the program's own ends where loops end that are steady. It has two loops
+         // at least, which say what fails.
+         std::size_t end = sizes.size();
+         while (end > 0 && fails(found[end - 1])) { --end; }
+         if (end >= 2 && end < sizes.size())
+         {
+            warn(name + ": the range ends at " + kind +
+                 text(" %.4g, since at %.4g ", sizes[end - 1] * unit, sizes[end] * unit) +
+                 found[end].message);
+            sizes.resize(end);
+            found.resize(end);
+         }
+      }
       for (std::size_t j = 0; j < sizes.size(); ++j)
       {
          const ModalLoop &loop = found[j];
          const double its = sizes[j];
-         const bool slides = std::isfinite(loop.sliding_force);
-         const bool known = loop.force > 0 && loop.steady && !slides &&
-                            (loop.status == FrictionStatus::converged ||
-                             loop.status == FrictionStatus::not_unique);
-         if (!known && !slides)
+         const bool known = !fails(loop) && !std::isfinite(loop.sliding_force);
+         if (fails(loop))
          {
             study_.code = 2;
             std::string where;
@@ -424,7 +455,7 @@ void ModalCurves::report_loops(const VibratingStructure &structure, const Modes 
                   where = " (interface " + face.name + ")";
                }
             }
-            warn(name + text(", amplitude %g: ", its) + loop.message + where);
+            warn(name + ", " + kind + text(" %g: ", its * unit) + loop.message + where);
          }
          row(table, loop, its,
              {k + 1, glued, at_point, known, joint.in_space(),
@@ -547,7 +578,7 @@ void ModalCurves::row(ResultTable &table, const ModalLoop &loop, double size, co
                or_none(loop.omega_first),
                or_none(loop.zeta_masing),
                or_none(loop.force),
-               or_none(loop.energy),
+               of.known || kind_ != "energy" ? or_none(loop.energy) : size,
                or_none(loop.area),
                loop.cycle,
                loop.change,

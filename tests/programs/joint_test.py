@@ -59,6 +59,51 @@ def test_it_is_said_where_units_cannot_be(run):
                                             "--modes", 1, "--amplitudes", "1e-7", program="joint").warned()
 
 
+def test_densities_of_no_solid_are_said(run):
+    """Steel in kg/mm³ where mm and N ask for t/mm³: the speed of sound is a metal's no more, but a soft solid's could be so."""
+    named = {"units": {"length": "mm", "force": "N"}}
+    got = run.case(changed(shipped("bolted_joint"), named | {"bodies.nut.density": 7.85e-6}), "--modes", 1, "--amplitudes", "1e-4",
+                   program="joint")
+    [said] = got.results["warnings"]
+    assert said.startswith("body nut: density 7.85e-06 is 7.85e+06 kg/m³") and "steel has 7.85e-09" in said, said
+    speeds = got["speeds_of_sound"]
+    near_relative(speeds["nut"]["least"], math.sqrt(210e9 / 7850e3), 1e-12)
+    near_relative(speeds["head"]["most"], math.sqrt(210e9 / 7850), 1e-12)
+    assert "in upper, lower, head: 5172 m/s" in got.output and "in nut: 163.6 m/s" in got.output, got.output
+    # Steel in inches and pounds, in lbf s²/in⁴, is no reason for a warning.
+    inches = {f"bodies.{body}.{key}": value for body in ("upper", "lower", "head", "nut")
+              for key, value in (("young", 30.5e6), ("density", 7.345e-4))}
+    got = run.case(changed(shipped("bolted_joint"), inches | {"units": {"length": "in", "force": "lbf"}}), "--modes", 1, "--amplitudes",
+                   "1e-6", program="joint")
+    assert "density" not in got.warned() and 5170 < got["speeds_of_sound"]["nut"]["least"] < 5180
+
+
+def test_a_range_without_amplitudes_ends_where_the_joint_ratchets(run):
+    """And an energy at which it ratchets, which has no loop, is in the column of energies and not in that of amplitudes."""
+    got = run.case(shipped("bolted_joint"), "--modes", 1, "--amplitude-of", "energy", program="joint")
+    assert len(got["loops"]) >= 2 and all(row["status"] == "converged" for row in got["loops"]), got.output
+    ratios = [two["energy"] / one["energy"] for one, two in zip(got["loops"], got["loops"][1:])]
+    near_relative(max(ratios), min(ratios), 1e-2)
+    [said] = [line for line in got.results["warnings"] if "the range ends at energy" in line]
+    beyond = float(said.split("since at ")[1].split()[0])
+    near_relative(beyond, got["loops"][-1]["energy"] * ratios[0], 1e-2)
+    got = run.case(shipped("bolted_joint"), "--modes", 1, "--amplitude-of", "energy", "--amplitudes", f"1e-3 {beyond}", program="joint", code=2)
+    small, large = got["loops"]
+    near_relative(small["energy"], 1e-3, 1e-2)
+    near_relative(small["energy"], (small["omega_secant"] * small["amplitude"])**2 / 2, 1e-9)
+    assert large["status"].startswith("moves on") and large["energy"] == beyond and large["amplitude"] is None
+    assert f"mode 1, energy {beyond:g}: " in got.warned(), got.warned()
+
+
+def test_without_friction_there_are_modes_and_no_loops(run):
+    """A head and a nut without friction slide freely on the plates: two more motions that nothing resists."""
+    got = run.case(changed(shipped("bolted_joint"), {"interfaces.under_head.friction": 0, "interfaces.under_nut.friction": 0}), "--modes", 2,
+                   program="joint", code=2)
+    assert got["rigid_modes_left_out"] == 2 and len(got["modes"]) == 2 and "loops" not in got.results
+    assert "friction is 0 at interface under_head, under_nut" in got.warned(), got.warned()
+    assert got["message"] in got.warned()
+
+
 def test_round_off_is_no_result(run):
     """Where all nodes stick nothing is lost, however small the amplitude is, down to one that is refused."""
     case = shipped("bolted_joint")
@@ -123,6 +168,19 @@ def test_tetrahedra_of_order_2_on_hexahedra(run):
     near_relative(got["loops"][0]["omega"], got["modes"][0]["omega"], 1e-6)
     fine = run.case(changed(column(poisson=0.3), {"order": 2}), "--modes", 1, "--amplitudes", "1e-5", program="joint")
     near_relative(got["modes"][0]["omega"], fine["modes"][0]["omega"], 0.02)
+
+
+def test_equal_frequencies_are_said(run):
+    """A square column bends alike both ways."""
+    square = column()
+    for body in square["bodies"].values():
+        body["block"]["y"] = {"points": [0, 1], "cells": 3}
+    square["points"]["tip"] = [0.5, 0.5, 2.5]
+    got = run.case(square, "--modes", 2, "--amplitudes", "1e-7", program="joint")
+    one, two = got["modes"]
+    near_relative(one["omega"], two["omega"], 1e-8)
+    assert "modes 1 and 2 have the same frequency" in got.warned(), got.warned()
+    assert "same frequency" not in run.case(column(), "--modes", 2, "--amplitudes", "1e-7", program="joint").warned()
 
 
 def test_a_column_in_space_loses_work_where_it_slips(run):
