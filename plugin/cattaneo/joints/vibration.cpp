@@ -403,7 +403,9 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
    const VectorXd diagonal = parts.M.diagonal(), stiff = parts.K.diagonal();
    for (int c = 0; c < columns; ++c)
    {
-      require(diagonal[c] > 0 || stiff[c] == 0, "vibration: ", parts.called(c),
+      const bool has_mass = diagonal[c] > 0 || stiff[c] == 0;
+      // Its place is searched for only where it is said.
+      require(has_mass, "vibration: ", has_mass ? std::string() : parts.called(c),
               " is not held and has a stiffness but a mass of ", diagonal[c],
               ", must be positive: a small mass there changes low modes little");
       if (rest[c] && diagonal[c] > 0) { parts.rest.push_back(c); }
