@@ -18,11 +18,13 @@
 #include "joint/case_of_joint.hpp"
 #include "joint/modal_curves.hpp"
 
+#include <algorithm>
 #include <cattaneo/contact/vibrating_body.hpp>
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 
 using namespace cattaneo;
 using namespace miniapp;
@@ -223,34 +225,74 @@ void map_of_losses(Study &study, const Reduction &reduction, Index mode,
    }
 }
 
-template <class Own>
-void vibrate(Study &study, const CaseOfJoint &options, ModalCurves &curves,
-             const JointCase &joint, Own own)
+/// The case without bolts that are not tightened yet at the end of the opening part of its
+/// history: no force holds their shanks. A bolt that the history never names stays, and its
+/// march says so.
+JointCase without_loose_bolts(const JointCase &joint, const ReducedProblem &problem,
+                              const LoadHistory &history, const LoadHistory &opening)
 {
-   // 1. Bodies, reduced to their contact nodes.
-   ReducedProblem &problem = own.scene.problem();
+   JointCase assembled = joint;
+   const auto loose = [&](const JointCase::Bolt &bolt)
+   {
+      const auto load = static_cast<Index>(problem.pattern(bolt.name));
+      bool named = false;
+      for (int k = 1; k < history.times.size(); ++k)
+      {
+         named = named || history.states(k, load);
+      }
+      return bolt.tightened && named && opening.multipliers.row(load).isZero(0);
+   };
+   assembled.bolts.erase(std::remove_if(assembled.bolts.begin(), assembled.bolts.end(), loose),
+                         assembled.bolts.end());
+   return assembled;
+}
+
+/// The history of one problem for another one, which has some of its loads.
+LoadHistory of_loads(const LoadHistory &history, const ReducedProblem &from,
+                     const ReducedProblem &to)
+{
+   LoadHistory made = history;
+   made.multipliers.resize(static_cast<Index>(to.patterns.size()), history.times.size());
+   std::map<int, int> number; // of a load there, by that here
+   for (std::size_t k = 0; k < to.patterns.size(); ++k)
+   {
+      const auto before = static_cast<int>(from.pattern(to.patterns[k].name));
+      number[before] = static_cast<int>(k);
+      made.multipliers.row(static_cast<Index>(k)) = history.multipliers.row(before);
+   }
+   for (std::vector<int> &loads : made.stated)
+   {
+      std::vector<int> its;
+      for (const int load : loads)
+      {
+         if (number.count(load) > 0) { its.push_back(number[load]); }
+      }
+      loads = its;
+   }
+   return made;
+}
+
+template <class Own>
+void require_contact(const Own &own)
+{
+   const ReducedProblem &problem = own.scene.problem();
    require(!problem.patterns.empty(), "there is no load: nothing presses the bodies together");
    require(problem.nodes() > 0, "all interfaces are tied: the joint is linear, it has one "
                                 "frequency for each mode and no damping");
+}
+
+/// Modes and loops about the end of this part of the history, a point of it by its number.
+template <class Own>
+void vibrate_after(Study &study, const CaseOfJoint &options, ModalCurves &curves,
+                   const JointCase &joint, Own &own, const LoadHistory &opening, Index point)
+{
+   // 1. Bodies, reduced to their contact nodes.
+   ReducedProblem &problem = own.scene.problem();
    std::vector<VibratingBody> bodies = with_mass(joint, own);
    study.condensed(own.scene);
    report_units(study, joint, own);
 
    // 2. The march to the state about which it vibrates.
-   LoadHistory history = load_history("history", options.history, problem);
-   for (const auto &[load, with] : joint.go_with)
-   {
-      history.multipliers.row(problem.pattern(load)) =
-         history.multipliers.row(problem.pattern(with));
-   }
-   const Index last = history.times.size() - 1;
-   require(options.at_point <= last, "option --at-point is ", options.at_point,
-           ", the history has the points 0 to ", last);
-   const Index point = options.at_point >= 0
-                          ? options.at_point
-                          : assembled_at(history, joint, problem, options.cycle_start);
-   require(point > 0, "option --at-point is 0, where no load acts: it must be 1 at least");
-   const LoadHistory opening = up_to(history, point);
    opening.validate(problem);
    ContactState state = ContactState::virgin(problem);
    MarchSettings settings;
@@ -299,6 +341,52 @@ void vibrate(Study &study, const CaseOfJoint &options, ModalCurves &curves,
    curves.report_loops(structure, modes, own.scene, joint, state);
 }
 
+/// Reads the history of a case, and leaves out the bolts that it tightens only after the point
+/// about which the joint vibrates. `make` makes the bodies of a case.
+template <class Make>
+void vibrate(Study &study, const CaseOfJoint &options, ModalCurves &curves,
+             const JointCase &joint, const Make &make)
+{
+   auto own = make(joint);
+   require_contact(own);
+   const ReducedProblem &problem = own.scene.problem();
+   LoadHistory history = load_history("history", options.history, problem);
+   for (const auto &[load, with] : joint.go_with)
+   {
+      history.multipliers.row(problem.pattern(load)) =
+         history.multipliers.row(problem.pattern(with));
+   }
+   const Index last = history.times.size() - 1;
+   require(options.at_point <= last, "option --at-point is ", options.at_point,
+           ", the history has the points 0 to ", last);
+   const Index point = options.at_point >= 0
+                          ? options.at_point
+                          : assembled_at(history, joint, problem, options.cycle_start);
+   require(point > 0, "option --at-point is 0, where no load acts: it must be 1 at least");
+   const LoadHistory opening = up_to(history, point);
+   const JointCase assembled = without_loose_bolts(joint, problem, history, opening);
+   if (assembled.bolts.size() == joint.bolts.size())
+   {
+      vibrate_after(study, options, curves, joint, own, opening, point);
+      return;
+   }
+   std::string loose;
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      const bool stays =
+         std::any_of(assembled.bolts.begin(), assembled.bolts.end(),
+                     [&](const JointCase::Bolt &its) { return its.name == bolt.name; });
+      if (stays) { continue; }
+      study.results["bolts_not_tightened"].push_back(bolt.name);
+      loose += (loose.empty() ? "" : ", ") + bolt.name;
+   }
+   study.say("Not tightened yet, and left out: " + loose);
+   auto without = make(assembled);
+   require_contact(without);
+   vibrate_after(study, options, curves, assembled, without,
+                 of_loads(opening, problem, without.scene.problem()), point);
+}
+
 void joint_study(Study &study)
 {
    CaseOfJoint options(study);
@@ -311,9 +399,14 @@ void joint_study(Study &study)
    {
       require(!study.options().says("check"),
               "option --check shows plane bodies: leave it out of a case in space");
-      vibrate(study, options, curves, joint, make_bodies_in_space(joint));
+      vibrate(study, options, curves, joint,
+              [](const JointCase &its) { return make_bodies_in_space(its); });
    }
-   else { vibrate(study, options, curves, joint, make_own_bodies(joint)); }
+   else
+   {
+      vibrate(study, options, curves, joint,
+              [](const JointCase &its) { return make_own_bodies(its); });
+   }
 }
 
 } // namespace

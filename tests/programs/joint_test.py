@@ -201,22 +201,47 @@ def test_a_column_in_space_loses_work_where_it_slips(run):
     assert (run.folder / "out_losses_1.csv").exists()
 
 
-def test_bolts_in_space_lose_force(run):
-    """Two plates and a bolt through the middle of them, which bend together."""
+def bolted_plates(history, **more_bolts):
+    """Two plates in space and bolts through them, B and others."""
     def plate(z, **more):
         return {"block": {"x": {"points": [-3, -1, 1, 3], "cells": [2, 2, 2]}, "y": {"points": [-1, 1], "cells": 2},
                           "z": {"points": z, "cells": 2}},
                 "young": 200, "poisson": 0.3, "density": 1e-3, **more}
-    case = {"analysis": "space", "order": 1,
+    return {"analysis": "space", "order": 1,
             "bodies": {"high": plate([0, 0.5]), "low": plate([-0.5, 0], support="left:xyz")},
             "interfaces": {"seam": {"between": ["high:bottom", "low:top"], "friction": 0.3}},
-            "bolts": {"B": {"between": ["high:top", "low:bottom"], "stiffness": 20, "preload": 0.5}}, "history": ["B=0", "B=1"]}
+            "bolts": {"B": {"between": ["high:top", "low:bottom"], "stiffness": 20, "preload": 0.5}, **more_bolts}, "history": history}
+
+
+def test_bolts_in_space_lose_force(run):
+    """Two plates and a bolt through the middle of them, which bend together."""
+    case = bolted_plates(["B=0", "B=1"])
     got = run.case(case, "--modes", 1, "--amplitudes", "1e-6 1e-3", program="joint")
     small, large = got["loops"]
     near_relative(small["omega"], got["modes"][0]["omega"], 1e-6)
     near_relative(small["bolts"]["B"]["force"], 0.5, 1e-9)
     near(small["bolts"]["B"]["lost"], 0, 1e-6)
     assert large["zeta"] > 1e-6 and large["bolts"]["B"]["least"] < 0.5
+
+
+def test_a_bolt_that_is_not_tightened_yet_is_left_out(run):
+    """Before its tightening a joint is that of a case without the bolt, also where a point names its force of zero."""
+    other = {"between": ["high:top", "low:bottom"], "stiffness": 50, "preload": 0.2}
+    words = ("--modes", 2, "--amplitudes", "1e-5 1e-3")
+    alone = run.case(bolted_plates(["B=0", "B=1"]), *words, program="joint")
+    for history in (["B=0", "B=1", "C=1"], ["B=0", "B=1; C=0", "C=1"]):
+        half = run.case(bolted_plates(history, C=other), *words, "--at-point", 1, program="joint")
+        assert half["bolts_not_tightened"] == ["C"] and "left out: C" in half.output and half["loads"] == alone["loads"]
+        assert len(half["loops"]) == 4
+        for key in ("modes", "loops"):
+            for one, two in zip(half[key], alone[key]):
+                near_relative(one["omega"], two["omega"], 1e-9)
+        near_relative(half["loops"][1]["zeta"], alone["loops"][1]["zeta"], 1e-6)
+    both = run.case(bolted_plates(["B=0", "B=1", "C=1"], C=other), *words, program="joint")
+    assert "bolts_not_tightened" not in both.results and set(both["loops"][0]["bolts"]) == {"B", "C"}
+    # A bolt that the history forgets is an error, also before.
+    error = run.case(bolted_plates(["B=0", "B=1"], C=other), *words, "--at-point", 1, program="joint", code=1).error
+    assert "'C' is never tightened" in error, error
 
 
 def test_obstacles_free_to_move_have_no_mass(run):
