@@ -91,7 +91,9 @@ MatrixXd FarFirst::stiffness(int eighths) const
    MatrixXd K = K_(left, left);
    for (int step = 0; step < 8 - eighths; ++step)
    {
-      K = minus_square(std::move(K), steps_[step].Y.rightCols(K.cols()));
+      // A compiler may move K before it evaluates the other argument.
+      const auto Y = steps_[step].Y.rightCols(K.cols());
+      K = minus_square(std::move(K), Y);
    }
    return K;
 }
