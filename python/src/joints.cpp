@@ -120,8 +120,12 @@ void bind_structure(nb::module_ &m)
          arg("reduction"), arg("bodies"), arg("shanks") = nb::dict(), nb::keep_alive<1, 2>(),
          "reduction: of these bodies. bodies: as they were condensed, in the same order, each "
          "with its mass `M`. shanks: stiffness of each bolt of add_shank() or BoltedJoint by "
-         "the name of its load.\nInputError if a body has no mass, or if bodies and shanks do "
-         "not have the stiffness of the problem.")
+         "the name of its load; the reduction is then BoltedJoint.tightened().\nInputError if "
+         "a "
+         "body has no mass, if bodies and shanks do not have the stiffness of the problem, as "
+         "in another order, or if a mass is not symmetric, positive definite and the same "
+         "along "
+         "all axes.")
       .def_prop_ro("mass", &Self::mass, "of all bodies; in the plane per unit of thickness")
       .def(
          "modes",
@@ -129,14 +133,23 @@ void bind_structure(nb::module_ &m)
             int count)
          {
             state.validate(problem);
+            require(self.stiffness_of(problem),
+                    "modes: the problem has another stiffness than the structure, must be that "
+                    "of its reduction (of a BoltedJoint the problem of tightened())");
+            if (!(state.p.maxCoeff() > 0))
+            {
+               warn("modes: no contact node of the state carries a force, so that none is "
+                    "glued: a load must press the bodies together before");
+            }
             const GluedRows glued = glued_rows(problem, state);
             return unlocked([&] { return self.modes(glued, count); });
          },
          arg("problem"), arg("state"), arg("count"),
          "The lowest modes about a state. Closed nodes with friction are glued, also those at "
-         "the limit of friction. Closed nodes without friction slide, and open nodes are "
-         "free.\n\nproblem: of the reduction, with its friction. state: of this problem. "
-         "count: number of modes, at least 1.")
+         "the limit of friction. Closed nodes without friction slide. Open nodes are free, as "
+         "are those that touch without a force: there is a warning if all do.\n\nproblem: of "
+         "the reduction, with its friction. state: of this problem. count: number of modes, "
+         "at least 1.\nInputError if the problem has another stiffness.")
       .def(
          "with_modes",
          [](const Self &self, const Modes &modes)
@@ -188,9 +201,14 @@ void bind_loops(nb::module_ &m)
       m, "ModalLoop",
       "A steady loop of one mode: the structure moves quasi-statically under the forces M φ, "
       "whose multiplier α swings between two opposite values until a cycle ends in the state "
-      "in which it began. A loop that is not `steady` has no frequency and no damping.");
+      "in which it began. A loop that is not `steady` has no frequency and no damping. Only a "
+      "loop that is `converged` as well has the size that was asked for.");
    bind_outcome(loop, [](const Self &self) -> const Self & { return self; });
-   loop.def_ro("steady", &Self::steady, "did the last cycle end as it began?")
+   loop
+      .def_ro(
+         "steady", &Self::steady,
+         "did the last cycle end as it began? True also of the largest loop before the joint "
+         "slides, which is not `converged`")
       .def_ro("omega", &Self::omega,
               "circular frequency by the first harmonic, ω₁² = ∮ α cos θ dθ/(π q)")
       .def_ro("zeta", &Self::zeta, "damping ratio D/(2π ω₁² q²)")
@@ -285,7 +303,9 @@ void bind_loops(nb::module_ &m)
       "problem: of with_modes(). state: about which it vibrates, of this problem, with a "
       "multiplier of the mode of 0. load: the mode's, 'mode 1' for instance. omega: its "
       "frequency without slip, Modes.omega. sizes: increasing, amplitudes or energies "
-      "(settings.size).\nThere is a warning (OutcomeWarning) for each loop that is no result, "
+      "(settings.size). A size whose forces are round-off of those of the state is refused. "
+      "Sizes at which the joint slides get the largest loop before that, which is steady and "
+      "not `converged`.\nThere is a warning (OutcomeWarning) for each loop that is no result, "
       "with the reason in its `message`.");
 }
 

@@ -140,10 +140,113 @@ def test_bodies_must_be_those_of_the_reduction():
         joints.VibratingStructure(column.reduction, column.bodies[::-1])
 
 
+def bolted():
+    """Two blocks of 2 by 1, one on the other at y = 0, with one bolt of stiffness 500: bodies, loose reduction, joint, state."""
+    skfem = pytest.importorskip("skfem")
+    from skfem.helpers import dot
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    bodies = []
+    for y in (0, 1), (-1, 0):
+        mesh = skfem.MeshQuad.init_tensor(np.linspace(0, 2, 6), np.linspace(*y, 3))
+        basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad1()), intorder=3)
+        K = linear_elasticity(*lame_parameters(1e3, 0.3)).assemble(basis)
+        M = skfem.BilinearForm(lambda u, v, w: DENSITY * dot(u, v)).assemble(basis)
+        bodies.append(cattaneo.NodalStiffness(K, mesh.p.T, elements=mesh.t.T, M=M))
+    upper, lower = bodies
+    for body, y, sign in ((upper, 1, -1), (lower, -1, 1)):
+        places = np.flatnonzero(body.places[:, 1] == y)
+        places = places[np.argsort(body.places[places, 0])]
+        body.add_forces("B", places[2:4], "y", sign * 0.5)
+        if sign > 0:
+            body.fix(places[:2], "xy")
+    loose = cattaneo.reduce(*(cattaneo.condense(body, body.contact_line(body.places[:, 1] == 0)) for body in bodies))
+    loose.problem.friction = 0.3
+    joint = cattaneo.BoltedJoint(loose, {"B": 500.0})
+    return bodies, loose, joint, joint.march([{}, {"B": 5.0}]).state
+
+
+def test_shanks_and_states_must_be_those_of_the_reduction():
+    bodies, loose, joint, state = bolted()
+    tightened = joint.tightened()
+    right = joints.VibratingStructure(tightened, bodies, {"B": 500.0})
+    right.with_modes(right.modes(joint.problem, state, 2))
+    for shanks in ({}, {"B": 5.0}, {"B": 5e5}):
+        with pytest.raises(cattaneo.InputError, match="all bolts that are springs must be named"):
+            joints.VibratingStructure(tightened, bodies, shanks)
+    with pytest.raises(cattaneo.InputError, match="'B' has the stiffness -500, must be positive"):
+        joints.VibratingStructure(tightened, bodies, {"B": -500.0})
+    with pytest.raises(cattaneo.InputError, match=r"the reduction of a BoltedJoint is its tightened\(\)"):
+        joints.VibratingStructure(loose, bodies, {"B": 500.0})
+    # Without the bolt the structure is the loose one, of which the state of the joint is none.
+    without = joints.VibratingStructure(loose, bodies)
+    with pytest.raises(cattaneo.InputError, match="the problem has another stiffness than the structure"):
+        without.modes(joint.problem, state, 2)
+
+
+def test_a_body_that_is_held_otherwise_is_refused():
+    """The same stiffness, but other supports than those of the reduction."""
+    column = Column(True)
+    upper, lower = column.bodies
+    freed = cattaneo.NodalStiffness(lower.K, lower.places, M=lower.M)
+    freed.fix(lower.places[:, 1] == 0, "xy")
+    with pytest.raises(cattaneo.InputError, match="the supports of the bodies are not those"):
+        joints.VibratingStructure(column.reduction, [upper, freed])
+
+
+def test_masses_that_no_body_has_are_refused():
+    """A mass is symmetric and definite, and a translation moves all of it along each axis."""
+    column = Column(True)
+    upper, lower = column.bodies
+
+    def refused(M, match):
+        other = cattaneo.NodalStiffness(upper.K, upper.places, M=M)
+        with pytest.raises(cattaneo.InputError, match=match):
+            joints.VibratingStructure(column.reduction, [other, lower])
+
+    # Nodes in the right order, but all x before all y and z.
+    size = upper.K.shape[0]
+    order = np.arange(size).reshape(-1, 3).T.ravel()
+    M = upper.M.toarray()
+    refused(M[np.ix_(order, order)], "are the rows of the mass those of the stiffness")
+    # A positive diagonal, but two nodes that move against each other have a negative mass.
+    negative = np.diag(M.diagonal())
+    negative[0, 3] = negative[3, 0] = 2 * max(M[0, 0], M[3, 3])
+    refused(negative, "body 0: its mass is not positive definite at .* along")
+
+
+def test_the_loss_of_loops_without_slip_is_none():
+    """However small a loop is: nodes at the limit of friction slip by round-off. A size that is round-off itself is refused."""
+    bodies, loose, joint, state = bolted()
+    structure = joints.VibratingStructure(joint.tightened(), bodies, {"B": 500.0})
+    modes = structure.modes(joint.problem, state, 1)
+    problem, about = structure.with_modes(modes), structure.with_modes(modes, state)
+    with pytest.raises(cattaneo.InputError, match="mode 1: amplitude 1e-30 must be at least") as refused:
+        joints.modal_curve(problem, about, "mode 1", modes.omega[0], [1e-30, 1e-3])
+    least = float(str(refused.value).split("at least ")[1].split(":")[0])
+    for loop in joints.modal_curve(problem, about, "mode 1", modes.omega[0], [1.01 * least, 10 * least, 100 * least]):
+        assert loop.converged and loop.zeta == loop.zeta_secant == loop.dissipation == 0 and not loop.node_dissipation.any()
+        assert loop.omega == pytest.approx(modes.omega[0], rel=1e-5)
+
+
+def test_sizes_beyond_sliding_are_not_converged():
+    """Their loop is the largest before the joint slides, a steady one."""
+    bodies, loose, joint, state = bolted()
+    structure = joints.VibratingStructure(joint.tightened(), bodies, {"B": 500.0})
+    modes = structure.modes(joint.problem, state, 1)
+    problem, about = structure.with_modes(modes), structure.with_modes(modes, state)
+    with pytest.warns(cattaneo.OutcomeWarning, match="slides as a whole"):
+        small, *large = joints.modal_curve(problem, about, "mode 1", modes.omega[0], [1e-3, 10.0, 20.0])
+    assert small.converged and small.steady
+    for loop in large:
+        assert not loop.converged and loop.steady and loop.amplitude < 10 and np.isfinite(loop.sliding_force)
+
+
 def test_nodes_that_touch_without_a_force_are_open():
     """The lower block alone is held, so that the upper one is free: six rigid motions."""
     column = Column(True)
-    modes = column.structure.modes(column.problem, cattaneo.ContactState.virgin(column.problem), 2)
+    with pytest.warns(cattaneo.OutcomeWarning, match="no contact node of the state carries a force"):
+        modes = column.structure.modes(column.problem, cattaneo.ContactState.virgin(column.problem), 2)
     assert modes.rigid == 6
 
 

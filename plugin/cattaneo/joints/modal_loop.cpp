@@ -78,6 +78,14 @@ double half_range(const std::vector<LoopPoint> &points)
    return 0.5 * (most - least);
 }
 
+/// Of work along a path at a state: the largest displacement times the largest force, with 13
+/// digits.
+double round_off_of_work(const ContactState &state)
+{
+   return 1e-13 * state.displacements().lpNorm<Eigen::Infinity>() *
+          state.forces().lpNorm<Eigen::Infinity>();
+}
+
 /// Cycles of a march, one after the other: the points of the present one, and how far its end
 /// is from its beginning.
 class Cycles
@@ -131,8 +139,7 @@ public:
       // 3. Work along the loop that is not lost is stored, so the state has changed. Increments
       // also lose the work of pressures on nodes that open or close within them.
       const double round_off =
-         1e-12 * std::abs(points[0].force) * half_range(points) +
-         1e-13 * to[0].lpNorm<Eigen::Infinity>() * to[1].lpNorm<Eigen::Infinity>();
+         1e-12 * std::abs(points[0].force) * half_range(points) + round_off_of_work(state);
       const double allowed = std::max(
          tolerance_, share_ * loss_ / (std::abs(points[0].force) * half_range(points)));
       steady = left <= allowed && (!exact_ || std::abs(work_along(points) - loss_) <=
@@ -482,6 +489,13 @@ private:
       loop.omega_secant = std::sqrt(force / half);
       loop.dissipation = last.dissipation;
       loop.node_dissipation = last.node_dissipation;
+      // Nodes at the limit of friction slip by the round-off of the displacements, and lose the
+      // round-off of the work. Nothing has slipped then.
+      if (loop.dissipation <= round_off_of_work(state))
+      {
+         loop.dissipation = 0;
+         loop.node_dissipation.setZero();
+      }
       loop.area = work_along(points);
       loop.zeta_secant = loop.dissipation / (2 * pi * force * half);
       const double square = first_harmonic(points, middle, half) / (pi * half);
@@ -611,6 +625,16 @@ public:
       }
       const bool by_energy = settings_.size == LoopSize::energy;
       const double first = by_energy ? omega_ * std::sqrt(2 * size) : omega_ * omega_ * size;
+      // Forces of a smaller loop are round-off of those of the state: frequencies are wrong by
+      // some 1e-6 here.
+      const LoadPattern &pattern = problem_.patterns[load_];
+      const double unit = std::hypot(pattern.q.norm(), pattern.p.norm()),
+                   least =
+                      unit > 0 ? 1e-7 * std::hypot(state_.p.norm(), state_.q.norm()) / unit : 0;
+      require(first >= (1 - 1e-6) * least, pattern.name, ": ",
+              by_energy ? "energy " : "amplitude ", size, " must be at least ",
+              by_energy ? 0.5 * std::pow(least / omega_, 2) : least / (omega_ * omega_),
+              ": forces of a smaller one are round-off of those that hold the joint together");
       ForceSearch search(std::max(first, least_), by_energy ? 0.5 : 1, settings_.tolerance);
       ModalLoop best;
       std::string slides;
@@ -733,7 +757,7 @@ private:
       secant_ = omega_ = loop.omega_secant;
    }
 
-   static std::string why_not_steady(const ModalLoop &loop)
+   std::string why_not_steady(const ModalLoop &loop) const
    {
       std::ostringstream message;
       message << std::setprecision(3);
@@ -744,9 +768,21 @@ private:
       }
       else
       {
-         message << "not steady after " << loop.cycle
-                 << " cycles, the last one still changed the state by " << loop.change
-                 << " of its range";
+         message << "not steady after " << loop.cycle << " cycles, ";
+         const double work = std::abs(loop.area - loop.dissipation);
+         if (!swings_.exact() || loop.change > settings_.steady_tolerance ||
+             work <= settings_.steady_tolerance * loop.dissipation)
+         {
+            message << "the last one still changed the state by " << loop.change
+                    << " of its range";
+         }
+         else
+         {
+            message << "which repeat, but the work along one is " << loop.area
+                    << " and the loss by friction " << loop.dissipation
+                    << ": the exact path lacks points, a march by fixed increments has no need "
+                       "of them";
+         }
       }
       return message.str();
    }

@@ -70,7 +70,9 @@ struct ModalLoop
    double area = 0;
    Eigen::VectorXd node_dissipation; ///< of each node of the problem; they add up to D
    int cycle = 0;                    ///< number of cycles until the loop was steady, or at most
-   bool steady = false; ///< false: cycles still changed at the last one, see the message
+   /// False: cycles still changed at the last one, see the message. A steady loop that is not
+   /// of the size that was asked for has another `status` than converged.
+   bool steady = false;
    /// By how much the last cycle changed the state, over what moves in it.
    double change = 0;
    /// The joint ratchets: forces repeat, but each cycle adds the same displacements, the
@@ -102,14 +104,16 @@ struct ModalLoop
     Where no force makes such a loop, since the joint slides as a whole before, the loop of the
     largest force that has one is returned with the status and a message. A loop that is not
     steady after ModalLoopSettings::cycles is returned with `steady` false and a message: its
-    frequency and damping are no results. That is so too if the joint ratchets.
+    frequency and damping are no results. That is so too if the joint ratchets. A loss that is
+    round-off of the work of the state's forces counts as 0.
 
     @param problem  with the modes' loads, see VibratingStructure::with_modes()
     @param state    about which it vibrates; the multiplier of the mode is 0
     @param load     name of the mode's load
     @param omega    frequency where no node slips, to begin with
     @param size     > 0
-    InputError for another value, or where the load is none of forces. */
+    InputError for another value, for one so small that the modal forces are round-off of the
+    state's, or where the load is none of forces. */
 ModalLoop modal_loop(FrictionSolver &solver, const ReducedProblem &problem,
                      const ContactState &state, const std::string &load, double omega,
                      double size, const ModalLoopSettings &settings = {});

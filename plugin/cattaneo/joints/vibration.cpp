@@ -1,11 +1,13 @@
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cattaneo/algebra/sparse_eigenpairs.hpp>
 #include <cattaneo/algebra/sparse_factor.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/joints/vibration.hpp>
 #include <cattaneo/reduced/contact_motions.hpp>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -59,6 +61,86 @@ void hold_eliminated_rows(AssembledBody &body)
    std::set_union(body.fixed.begin(), body.fixed.end(), rows.begin(), rows.end(),
                   std::back_inserter(all));
    body.fixed = std::move(all);
+}
+
+/// The place and the direction of a dof, for messages.
+std::string called(const DofPlaces &places, int dof)
+{
+   const bool axis = places.formulation == Formulation::axisymmetric;
+   const char *direction = axis ? "rz" : "xyz";
+   return places.called(dof) + " along " + direction[places.component[dof]];
+}
+
+/// InputError unless the mass of a body is symmetric, positive definite on the dofs that move,
+/// and the same along all axes.
+void check_mass(std::size_t b, const VibratingBody &body)
+{
+   const AssembledBody &its = body.body;
+   // 1. Dofs that move. Those without a mass are refused later if they have a stiffness.
+   std::vector<int> moving;
+   for (int dof = 0; dof < its.K.size(); ++dof)
+   {
+      const bool fixed = std::binary_search(its.fixed.begin(), its.fixed.end(), dof);
+      if (!fixed && body.M.diagonal(dof) != 0) { moving.push_back(dof); }
+   }
+   // 2. Symmetric and definite.
+   const RowMatrix M = body.M.view(), turned = M.transpose();
+   const double most =
+      M.nonZeros() > 0
+         ? Eigen::Map<const VectorXd>(M.valuePtr(), M.nonZeros()).lpNorm<Eigen::Infinity>()
+         : 0;
+   const RowMatrix skew = M - turned;
+   for (Index row = 0; row < skew.rows(); ++row)
+   {
+      for (RowMatrix::InnerIterator it(skew, row); it; ++it)
+      {
+         require(std::abs(it.value()) <= 1e-9 * most, "vibration: body ", b,
+                 ": its mass is not symmetric, it must be: entries (", row, ", ", it.col(),
+                 ") and (", it.col(), ", ", row, ") differ by ", it.value());
+      }
+   }
+   if (moving.empty()) { return; }
+   try
+   {
+      const SparseFactor factor(body.M.view(), moving, 0, 0.0);
+   }
+   catch (const NotPositiveDefinite &failure)
+   {
+      throw InputError(
+         "vibration: body " + std::to_string(b) + ": its mass is not positive definite at " +
+         called(its.places, failure.row) + " (row " + std::to_string(failure.row) +
+         "), it must be: a motion has no mass, or a negative one");
+   }
+   // 3. Translations along all axes move the same mass. About an axis a radial displacement is
+   // no common motion, and a node that lacks the mass of a support says nothing.
+   if (its.places.formulation == Formulation::axisymmetric) { return; }
+   const auto axes = static_cast<std::size_t>(cattaneo::components(its.places.formulation));
+   std::map<std::array<double, 3>, std::array<int, 3>> at;
+   MatrixXd along = MatrixXd::Zero(M.rows(), static_cast<Index>(axes));
+   for (int dof = 0; dof < its.K.size(); ++dof)
+   {
+      const Eigen::Vector3d place = its.places.place(dof);
+      const int component = its.places.component[dof];
+      along(dof, component) = 1;
+      at[{place[0], place[1], place[2]}][component] += body.M.diagonal(dof) != 0;
+   }
+   for (const auto &[place, count] : at)
+   {
+      for (std::size_t c = 1; c < axes; ++c)
+      {
+         if (count[c] != count[0]) { return; }
+      }
+   }
+   const MatrixXd moved = along.transpose() * (M * along);
+   const double wrong = (moved - moved(0, 0) * MatrixXd::Identity(moved.rows(), moved.cols()))
+                           .cwiseAbs()
+                           .maxCoeff();
+   std::ostringstream masses;
+   masses << moved.diagonal().transpose();
+   require(wrong <= 1e-6 * moved.diagonal().maxCoeff(), "vibration: body ", b,
+           ": translations along its axes move the masses ", masses.str(),
+           ", and they couple by ", moved(0, 1),
+           ", must be one mass and 0: are the rows of the mass those of the stiffness?");
 }
 
 /// Round-off of a quadratic form xᵀ A x, by the sizes of its terms.
@@ -126,6 +208,10 @@ struct VibratingStructure::Parts
    /// A coordinate in a sentence, by the first dof that it moves.
    std::string called(int coordinate) const;
    void add_shank(const Reduction &reduction, const Bolt &bolt);
+   /// The bodies and shanks must be those of the reduction.
+   void check(Reduction &reduction, const std::vector<Bolt> &shanks) const;
+   /// Forces of a load on the dofs of each body, per unit multiplier; empty if none has it.
+   std::vector<VectorXd> forces_of(const std::string &load) const;
    /// The displacements of all coordinates except the relative displacements, K_rr⁻¹ f_r.
    /// Motions that nothing resists are left at rest.
    class Answer;
@@ -282,23 +368,32 @@ void require_same_places(const CondensedBody &reduced, const AssembledBody &body
 
 } // namespace
 
-/// A spring on the load's forces: stiffness · F Fᵀ.
-void VibratingStructure::Parts::add_shank(const Reduction &reduction, const Bolt &bolt)
+std::vector<VectorXd> VibratingStructure::Parts::forces_of(const std::string &load) const
 {
    std::vector<VectorXd> forces;
    bool found = false;
    for (std::size_t b = 0; b < bodies.size(); ++b)
    {
       forces.emplace_back(VectorXd::Zero(bodies[b].body.K.size()));
-      for (const BodyLoad &load : bodies[b].body.loads)
+      for (const BodyLoad &each : bodies[b].body.loads)
       {
-         if (load.name != bolt.load) { continue; }
-         forces.back() += thickness[b] * load.values;
+         if (each.name != load || each.control != Control::force) { continue; }
+         forces.back() += thickness[b] * each.values;
          found = true;
       }
    }
+   return found ? forces : std::vector<VectorXd>();
+}
+
+/// A spring on the load's forces: stiffness · F Fᵀ.
+void VibratingStructure::Parts::add_shank(const Reduction &reduction, const Bolt &bolt)
+{
+   require(bolt.stiffness > 0 && std::isfinite(bolt.stiffness), "vibration: the shank of '",
+           bolt.load, "' has the stiffness ", bolt.stiffness, ", must be positive");
+   const std::vector<VectorXd> forces = forces_of(bolt.load);
    require(
-      found, "vibration: no body has the load '", bolt.load, "' of a bolt, one must (loads: ",
+      !forces.empty(), "vibration: no body has the load '", bolt.load,
+      "' of a bolt, one must (loads: ",
       [&]
       {
          std::string all;
@@ -348,8 +443,63 @@ void VibratingStructure::Parts::check(const ReducedProblem &problem, const Answe
    require(difference <= 1e-6 * expected.cwiseAbs().maxCoeff(),
            "vibration: the stiffness of the bodies is not that of the reduced problem (by ",
            difference / expected.cwiseAbs().maxCoeff(),
-           " of it), must be: all bolts that are springs must be named, and no obstacle may be "
-           "free to move, since it has no mass");
+           " of it), must be: no obstacle may be free to move, since it has no mass");
+}
+
+/// For one displacement of all contact nodes, the bodies move as the reduction says. Then their
+/// stiffness must give the forces of the problem on these nodes, and none elsewhere.
+void VibratingStructure::Parts::check(Reduction &reduction,
+                                      const std::vector<Bolt> &shanks) const
+{
+   // 1. The bodies move.
+   const ReducedProblem &problem = reduction.problem;
+   const auto rows = static_cast<Index>(relative.size());
+   VectorXd u = VectorXd::Zero(rows);
+   for (Index row = 0; row < rows; ++row)
+   {
+      if (relative[row] >= 0) { u[row] = std::sin(1.0 + static_cast<double>(row)); }
+   }
+   const VectorXd at_rest = VectorXd::Zero(static_cast<Index>(problem.patterns.size()));
+   std::vector<VectorXd> moved, forces;
+   double apart = 0; // displacement of supports
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      const AssembledBody &body = bodies[b].body;
+      moved.push_back(reduction.displacement(static_cast<int>(b), u.head(problem.slips()),
+                                             u.tail(problem.nodes()), at_rest));
+      require(moved[b].size() == body.K.size(), "vibration: body ", b, " has ", body.K.size(),
+              " rows, that of the reduction has ", moved[b].size(),
+              ", must be the same body: bodies must have the order of the reduction");
+      for (const int dof : body.fixed)
+      {
+         if (body.blocks.empty()) { apart = std::max(apart, std::abs(moved[b][dof])); }
+      }
+      forces.emplace_back(thickness[b] * (body.K.view() * moved[b]));
+   }
+   // 2. The forces on the coordinates, with those of the shanks.
+   VectorXd f = on_coordinates(forces);
+   for (const Bolt &bolt : shanks)
+   {
+      const std::vector<VectorXd> F = forces_of(bolt.load);
+      double approach = 0;
+      for (std::size_t b = 0; b < bodies.size(); ++b) { approach += F[b].dot(moved[b]); }
+      f += bolt.stiffness * approach * on_coordinates(F);
+   }
+   const VectorXd expected = problem.K * u;
+   double difference = rest.empty() ? 0 : f(rest).lpNorm<Eigen::Infinity>();
+   for (Index row = 0; row < rows; ++row)
+   {
+      if (relative[row] < 0) { continue; }
+      difference = std::max(difference, std::abs(f[relative[row]] - expected[row]));
+   }
+   difference /= expected.lpNorm<Eigen::Infinity>();
+   require(difference <= 1e-6 && apart <= 1e-9 * u.lpNorm<Eigen::Infinity>(),
+           "vibration: the stiffness or the supports of the bodies are not those of the "
+           "reduced problem (forces differ by ",
+           difference,
+           " of the largest), must be: bodies must have the order of the reduction and be as "
+           "they were condensed, and all bolts that are springs must be named with their "
+           "stiffness (the reduction of a BoltedJoint is its tightened())");
 }
 
 VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<VibratingBody> bodies,
@@ -373,6 +523,7 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
               ", must be as many and more than none");
       require_same_places(reduction.bodies[b], body, b);
       hold_eliminated_rows(parts.bodies[b].body);
+      check_mass(b, parts.bodies[b]);
       parts.thickness.push_back(reduction.bodies[b].thickness);
       std::vector<bool> taken(body.K.size(), false);
       for (int dof : body.fixed) { taken[dof] = true; }
@@ -410,6 +561,7 @@ VibratingStructure::VibratingStructure(Reduction &reduction, std::vector<Vibrati
               ", must be positive: a small mass there changes low modes little");
       if (rest[c] && diagonal[c] > 0) { parts.rest.push_back(c); }
    }
+   parts.check(reduction, shanks);
 }
 
 VibratingStructure::~VibratingStructure() = default;
@@ -429,6 +581,13 @@ double VibratingStructure::mass() const
       sum += parts_->thickness[b] * r.dot(body.M.view() * r);
    }
    return sum;
+}
+
+bool VibratingStructure::stiffness_of(const ReducedProblem &problem) const
+{
+   const MatrixXd &K = reduction_.problem.K;
+   return problem.K.rows() == K.rows() && problem.K.cols() == K.cols() &&
+          (problem.K - K).cwiseAbs().maxCoeff() <= 1e-9 * K.cwiseAbs().maxCoeff();
 }
 
 Modes VibratingStructure::modes(const GluedRows &glued, int count) const
@@ -631,6 +790,7 @@ CraigBampton VibratingStructure::craig_bampton(int count, double most,
    // 2. Forces on all coordinates do work with a unit of each coordinate of the contact, at
    // which the others follow without forces, x_r = -K_rr⁻¹ K_rc, and with the modes.
    const Parts::Answer answer(parts, held.rigid_coordinates);
+   parts.check(reduction_.problem, answer);
    const auto on_kept = [&](const MatrixXd &forces)
    {
       MatrixXd all(size, forces.cols());
@@ -661,19 +821,8 @@ CraigBampton VibratingStructure::craig_bampton(int count, double most,
    // 4. Loads, and displacements of outputs.
    for (const LoadPattern &pattern : reduction_.problem.patterns)
    {
-      std::vector<VectorXd> forces;
-      bool found = false;
-      for (std::size_t b = 0; b < parts.bodies.size(); ++b)
-      {
-         forces.emplace_back(VectorXd::Zero(parts.bodies[b].body.K.size()));
-         for (const BodyLoad &load : parts.bodies[b].body.loads)
-         {
-            if (load.name != pattern.name || load.control != Control::force) { continue; }
-            forces.back() += parts.thickness[b] * load.values;
-            found = true;
-         }
-      }
-      if (!found) { continue; }
+      const std::vector<VectorXd> forces = parts.forces_of(pattern.name);
+      if (forces.empty()) { continue; }
       made.loads.push_back(pattern.name);
       made.F.conservativeResize(size, static_cast<Index>(made.loads.size()));
       made.F.rightCols(1) = on_kept(parts.on_coordinates(forces));

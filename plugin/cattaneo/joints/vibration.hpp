@@ -81,9 +81,10 @@ public:
    /** @param reduction  of these bodies, in their order, with the shanks
        @param bodies     as they were condensed
        @param shanks     bolts that act as springs, loads of the bodies by name
-       InputError if numbers or sizes of bodies disagree, if bodies twist, if a body is one of
-       none of the given, or if the stiffness of the bodies is not that of the problem. That is
-       so if a shank is missing, or if an obstacle is free to move, which has no mass here. */
+       InputError if numbers or sizes of bodies disagree, if bodies twist, if the stiffness of
+       the bodies and shanks is not that of the problem, or if a mass is not symmetric, positive
+       definite where the body moves, and the same along all axes. with_modes() and
+       craig_bampton() refuse an obstacle that is free to move, which has no mass here. */
    VibratingStructure(Reduction &reduction, std::vector<VibratingBody> bodies,
                       const std::vector<Bolt> &shanks = {});
    ~VibratingStructure();
@@ -91,6 +92,9 @@ public:
    /// Mass of all bodies, in the unit of density times volume; in the plane per unit of
    /// thickness unless the bodies have one.
    double mass() const;
+
+   /// Has the problem the stiffness of the reduction, to round-off?
+   bool stiffness_of(const ReducedProblem &problem) const;
 
    /** The lowest modes with these rows glued. Motions that nothing resists are no modes. By the
        Lanczos method with shift and inversion.
