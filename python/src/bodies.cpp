@@ -593,13 +593,14 @@ void bind_stiffness(nb::module_ &m)
       "read_stiffness",
       [](File matrix, File places, File mass)
       {
-         const auto with_mass = [&](NodalStiffness made)
-         {
-            if (!mass.is_none()) { read_mass(made, file(mass, "mass")); }
-            return made;
-         };
          const std::string name = file(matrix, "matrix");
          std::string at = places.is_none() ? std::string() : file(places, "places");
+         const auto with_mass = [&](NodalStiffness made)
+         {
+            const bool deck = std::filesystem::path(at).extension() == ".inp";
+            if (!mass.is_none()) { read_mass(made, file(mass, "mass"), deck ? at : ""); }
+            return made;
+         };
          const nb::object plain = nb::module_::import_("cattaneo._files").attr("plain")(name);
          if (plain.is_none()) { return with_mass(read_stiffness(name, at)); }
          if (at.empty() && !nb::cast<bool>(plain[2]))
@@ -618,7 +619,10 @@ void bind_stiffness(nb::module_ &m)
       "matrix with the same name.\n"
       "mass: the file with the mass of the same rows, which becomes `M`: of CalculiX (.mas), "
       "of "
-      "ABAQUS (*MATRIX GENERATE, MASS), MatrixMarket (.mtx), .npy or .npz.");
+      "ABAQUS (*MATRIX GENERATE, MASS), MatrixMarket (.mtx), .npy or .npz. A .mas has its deck "
+      "in places, beside it with its name, or beside the matrix. Each row that is not fixed "
+      "and "
+      "has a stiffness must have a mass.");
    m.def(
       "nodal_stiffness", [](CondensedBody &body) { return nodal_stiffness(body); }, arg("body"),
       "The stiffness of a condensed body on its contact nodes, for another program.");

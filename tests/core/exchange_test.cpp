@@ -1118,6 +1118,19 @@ TEST_F(Exchange, MassesOfEachKind)
    }
    EXPECT_EQ(sum, 6);
 
+   // A mass of another name has the deck and the rows of the stiffness.
+   body.M = {};
+   write_whole("other.mas", "1 1 2.\n2 2 2.\n3 3 1.\n4 4 1.\n3 1 .25\n");
+   read_mass(body, "other.mas");
+   expect_masses(body);
+   body.M = {};
+   write_whole("other.mas", "1 1 2.\n2 2 2.\n3 3 1.\n");
+   expect_input_error([&] { read_mass(body, "other.mas"); },
+                      "mass 'other.mas' has no entry for");
+   EXPECT_EQ(body.M.rows(), 0);
+   write_whole("other.mas", "");
+   expect_input_error([&] { read_mass(body, "other.mas"); }, "is the file complete?");
+
    write_whole("n.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 1.\n");
    expect_input_error([&] { read_mass(body, "n.mtx"); }, "has 1 rows, must have 4");
    write_whole("m.mas", "1 1 -2.\n2 2 2.\n3 3 1.\n4 4 1.\n");

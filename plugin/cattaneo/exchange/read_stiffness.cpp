@@ -128,11 +128,11 @@ void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::s
 // --- CalculiX ------------------------------------------------------------------------------
 
 /// C3D8I has displacements of its own, which the matrix calls by numbers above those of all
-/// nodes.
-void read_calculix(const std::string &file, const InputDeck &deck, NodalStiffness &rows,
-                   Kind kind)
+/// nodes. @param numbers  the .dof file with the rows' nodes and directions
+void read_calculix(const std::string &file, const std::string &numbers, const InputDeck &deck,
+                   NodalStiffness &rows, Kind kind)
 {
-   LineReader dofs(std::filesystem::path(file).replace_extension(".dof").string());
+   LineReader dofs(numbers);
    while (dofs.next())
    {
       const std::string_view text = trimmed(dofs.line());
@@ -932,7 +932,10 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
       const std::string deck = beside(".inp");
       InputDeck said = read_input_deck(deck, DeckUse::stiffness);
       take_nodes(said, result);
-      if (ending == ".sti") { read_calculix(matrix, said, result, Kind::stiffness); }
+      if (ending == ".sti")
+      {
+         read_calculix(matrix, places_beside(matrix, ".dof"), said, result, Kind::stiffness);
+      }
       else if (form == MtxForm::sparse)
       {
          read_abaqus_sparse(matrix, said, result, Kind::stiffness);
@@ -964,7 +967,7 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    return result;
 }
 
-void read_mass(NodalStiffness &stiffness, const std::string &file)
+void read_mass(NodalStiffness &stiffness, const std::string &file, const std::string &deck)
 {
    require_ending("mass", file, {".mas", ".mtx", ".npy", ".npz"});
    const std::string ending = std::filesystem::path(file).extension().string();
@@ -975,9 +978,17 @@ void read_mass(NodalStiffness &stiffness, const std::string &file)
    NodalStiffness read;
    if (ending == ".mas" || form == MtxForm::sparse)
    {
-      InputDeck said = read_input_deck(places_beside(file, ".inp"), DeckUse::stiffness);
+      // Beside the mass with its name, or else beside the stiffness.
+      const auto beside = [&](const char *its)
+      {
+         const std::string own = places_beside(file, its),
+                           other = places_beside(stiffness.name, its);
+         return !std::filesystem::exists(own) && std::filesystem::exists(other) ? other : own;
+      };
+      InputDeck said =
+         read_input_deck(deck.empty() ? beside(".inp") : deck, DeckUse::stiffness);
       take_nodes(said, read);
-      if (ending == ".mas") { read_calculix(file, said, read, Kind::mass); }
+      if (ending == ".mas") { read_calculix(file, beside(".dof"), said, read, Kind::mass); }
       else { read_abaqus_sparse(file, said, read, Kind::mass); }
       const bool wedge = ending == ".mas" && read.formulation == Formulation::axisymmetric;
       if (wedge) { read.K *= 180.0; }
@@ -1010,8 +1021,19 @@ void read_mass(NodalStiffness &stiffness, const std::string &file)
          entries.emplace_back(row_of[row], row_of[entry.col()], entry.value());
       }
    }
-   stiffness.M.resize(stiffness.K.rows(), stiffness.K.rows());
-   stiffness.M.setFromTriplets(entries.begin(), entries.end());
+   Matrix M(stiffness.K.rows(), stiffness.K.rows());
+   M.setFromTriplets(entries.begin(), entries.end());
+   // 3. A file that is cut off, or of another analysis, lacks rows.
+   for (int row = 0; row < M.rows(); ++row)
+   {
+      require(M.coeff(row, row) != 0 || stiffness.K.coeff(row, row) == 0 ||
+                 std::binary_search(stiffness.fixed.begin(), stiffness.fixed.end(), row),
+              "mass '", file, "' has no entry for ", dof_name(stiffness.dofs[row]),
+              ", which has a stiffness in '", stiffness.name,
+              "', must have one for each such row: is the file complete? A node without mass "
+              "needs a small one");
+   }
+   stiffness.M = std::move(M);
 }
 
 std::string matrix_of_deck(const std::string &deck)

@@ -49,8 +49,12 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
 
     Units are those of the file. To be called before parts(), which takes the mass apart as
    well. InputError as of read_stiffness(), if the file has a node and direction without a row
-   in the stiffness, if internal nodes have a mass, or if the number of rows is another one. */
-void read_mass(NodalStiffness &stiffness, const std::string &file);
+   in the stiffness, if a row that is not fixed has a stiffness and no mass, if internal nodes
+   have a mass, or if the number of rows is another one.
+   @param deck  with the nodes; without it that beside the mass with its name, or else that
+                beside the stiffness */
+void read_mass(NodalStiffness &stiffness, const std::string &file,
+               const std::string &deck = "");
 
 /// The file of the stiffness that a deck "job.inp" writes: "job.sti" of CalculiX, "job.mtx", or
 /// "job_STIF1.mtx" of ABAQUS, beside it. InputError if there is none, or more than one.
