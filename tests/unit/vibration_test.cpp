@@ -180,7 +180,7 @@ TEST(Modes, LoopWithoutSlipHasTheFrequencyOfTheMode)
          for (int k = 0; k < 3; ++k)
          {
             const ModalLoop loop = modal_loop(
-               solver, problem, state, "mode " + std::to_string(k + 1), modes.omega[k], 1e-9);
+               solver, problem, state, "mode " + std::to_string(k + 1), modes.omega[k], 1e-7);
             ASSERT_EQ(loop.status, FrictionStatus::converged) << loop.message;
             EXPECT_TRUE(loop.steady) << loop.message;
             EXPECT_NEAR(loop.omega_secant, modes.omega[k], 1e-6 * modes.omega[k]);
