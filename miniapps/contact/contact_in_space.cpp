@@ -451,6 +451,7 @@ BodiesInSpace make_bodies_in_space(const JointCase &joint)
    own.scene.reduction = reduce(std::move(condensed), interfaces);
    check_overlaps(joint, own.scene.reduction);
    warn_of_seams(own.scene, interfaces);
+   warn_of_faces_covered_twice(own.scene, interfaces);
    mark_rims(own.scene, interfaces);
    std::vector<std::optional<Vector3d>> planes;
    for (const JointCase::Face &face : joint.faces)

@@ -80,6 +80,41 @@ ReportInSpace::Sum ReportInSpace::sum(const InterfaceReport &face,
    return made;
 }
 
+Vector3d ReportInSpace::middle(const InterfaceReport &face) const
+{
+   // A body that touches itself has forces of both sides.
+   const Vector3d of_places = face.places.transpose() * face.weights / face.weights.sum();
+   if (face.bodies[0] == face.bodies[1]) { return of_places; }
+   // The forces of a traction of 1 along x. Nodes that have rows of other interfaces are among
+   // those that bear them.
+   Index ties = 0;
+   for (const InterfaceReport &one : reduction_.interfaces)
+   {
+      ties += one.tied ? one.nodes : 0;
+   }
+   const Index n = reduction_.problem.nodes(), all = face.tied ? ties : n;
+   VectorXd forces = VectorXd::Zero(3 * all);
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      for (Index k = 0; k < 3; ++k)
+      {
+         forces[k * all + face.first + i] = face.weights[i] * face.frames(i, 3 * k);
+      }
+   }
+   const VectorXd none = VectorXd::Zero(3 * std::max(n, ties));
+   const Eigen::MatrixXd at_nodes =
+      face.tied
+         ? reduction_.contact_forces(face.bodies[0], none.head(2 * n), none.head(n), forces)
+         : reduction_.contact_forces(face.bodies[0], forces.head(2 * n), forces.tail(n),
+                                     none.head(3 * ties));
+   Vector3d sum = Vector3d::Zero();
+   for (Index k = 0; k < at_nodes.rows(); ++k)
+   {
+      sum += at_nodes(k, 0) * reduction_.bodies[face.bodies[0]].surface.nodes[k].position;
+   }
+   return sum / face.weights.sum();
+}
+
 ReportInSpace::Moments ReportInSpace::moments(const InterfaceReport &face,
                                               const ContactState &state,
                                               const Vector3d &about) const
@@ -201,7 +236,7 @@ void ReportInSpace::report_interfaces(const ContactState &state, const MarchRepo
    for (const InterfaceReport &face : reduction_.interfaces)
    {
       const Sum found = sum(face, state);
-      const Vector3d about = face.places.transpose() * face.weights / face.weights.sum();
+      const Vector3d about = middle(face);
       const Moments turning = moments(face, state, about);
       const bool known = cycle && cycle->whole && !face.tied;
       const double lost =

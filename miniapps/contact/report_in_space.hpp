@@ -56,6 +56,8 @@ private:
       Eigen::Vector3d force{0, 0, 0}, shear{0, 0, 0};
    };
    Sum sum(const cattaneo::InterfaceReport &face, const cattaneo::ContactState &state) const;
+   /// The middle of the area where the sides of an interface face each other.
+   Eigen::Vector3d middle(const cattaneo::InterfaceReport &face) const;
    /// Moments of an interface about a place.
    struct Moments
    {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -271,6 +272,138 @@ void warn_of_seams(const Scene &scene, const std::vector<Interface> &given)
                 "body. Forces act there on the other nodes of these faces, so that pressures "
                 "and moments are means. Make the other side the slave (key 'slave'), or end "
                 "faces where interfaces end"));
+   }
+}
+
+namespace
+{
+
+/// Triangles between the corners of a face.
+std::vector<std::array<Vector3d, 3>> triangles_of(const ContactSurface &side,
+                                                  const std::vector<Index> &face)
+{
+   const auto at = [&](std::size_t k) { return side.nodes[face[k]].position; };
+   std::vector<std::array<Vector3d, 3>> made{{at(0), at(1), at(2)}};
+   if (face.size() != 3 && face.size() != 6) { made.push_back({at(0), at(2), at(3)}); }
+   return made;
+}
+
+/// Does a face of a side that looks against a direction lie over a place, along it?
+bool lies_over(const ContactSurface &side, const Vector3d &place, const Vector3d &along)
+{
+   for (const std::vector<Index> &face : side.faces)
+   {
+      if (side.nodes[face[0]].normal().dot(along) > -0.5) { continue; }
+      for (const std::array<Vector3d, 3> &corners : triangles_of(side, face))
+      {
+         // Parts of the triangle's area, all of one sign within it. A place on the seam of two
+         // sides lies over neither.
+         std::array<double, 3> part{};
+         for (std::size_t k = 0; k < 3; ++k)
+         {
+            part[k] = along.dot((corners[k] - place).cross(corners[(k + 1) % 3] - place));
+         }
+         const double round_off = 1e-9 * std::abs(part[0] + part[1] + part[2]);
+         const auto [least, most] = std::minmax_element(part.begin(), part.end());
+         if (*least > round_off || *most < -round_off) { return true; }
+      }
+   }
+   return false;
+}
+
+/// A part of a body that faces the other sides of two interfaces.
+struct FacedTwice
+{
+   double area = 0;
+   Vector3d place{0, 0, 0};
+};
+
+/// Of the faces that two sides of a body share, those of which more than a twentieth faces both
+/// of the sides opposite. Areas are those of 8 × 8 parts whose middles do.
+FacedTwice faced_twice(const ContactSurface &one, const ContactSurface &other,
+                       const ContactSurface &opposite, const ContactSurface &its_opposite)
+{
+   const auto dofs_of = [](const ContactSurface &side, const std::vector<Index> &face)
+   {
+      std::set<int> dofs;
+      for (const Index node : face) { dofs.insert(side.nodes[node].dofs[0]); }
+      return dofs;
+   };
+   std::set<std::set<int>> shared;
+   for (const std::vector<Index> &face : other.faces) { shared.insert(dofs_of(other, face)); }
+   FacedTwice all;
+   constexpr int parts = 8;
+   for (const std::vector<Index> &face : one.faces)
+   {
+      if (shared.count(dofs_of(one, face)) == 0) { continue; }
+      double whole = 0, twice = 0;
+      Vector3d place(0, 0, 0);
+      for (const std::array<Vector3d, 3> &corners : triangles_of(one, face))
+      {
+         const Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0];
+         Vector3d normal = u.cross(v);
+         const double area = 0.5 * normal.norm() / (parts * parts);
+         if (area == 0) { continue; }
+         normal *= (one.nodes[face[0]].normal().dot(normal) < 0 ? -1 : 1) / normal.norm();
+         for (int i = 0; i < parts; ++i)
+         {
+            for (int j = 0; j < 2 * (parts - i) - 1; ++j)
+            {
+               // Triangles that stand on a row, and those that hang between them.
+               const double middle = j % 2 == 0 ? 1. / 3 : 2. / 3, row = i + middle,
+                            column = j / 2 + middle;
+               const Vector3d here = corners[0] + (column * u + row * v) / parts;
+               whole += area;
+               if (!lies_over(opposite, here, normal)) { continue; }
+               if (!lies_over(its_opposite, here, normal)) { continue; }
+               twice += area;
+               place = here;
+            }
+         }
+      }
+      if (twice <= 0.05 * whole) { continue; }
+      all.area += twice;
+      all.place = place;
+   }
+   return all;
+}
+
+} // namespace
+
+void warn_of_faces_covered_twice(const Scene &scene, const std::vector<Interface> &given)
+{
+   const auto sides_of = [](const Interface &face) {
+      return std::array<const InterfaceSide *, 2>{&face.first, &face.second};
+   };
+   for (std::size_t k = 0; k < given.size(); ++k)
+   {
+      for (std::size_t l = 0; l < k; ++l)
+      {
+         const auto its = sides_of(given[l]), own = sides_of(given[k]);
+         if (its[1]->body < 0 || own[1]->body < 0) { continue; }
+         FacedTwice most;
+         int body = -1;
+         for (const std::size_t a : {0, 1})
+         {
+            for (const std::size_t b : {0, 1})
+            {
+               if (its[a]->body != own[b]->body) { continue; }
+               const FacedTwice found = faced_twice(its[a]->surface, own[b]->surface,
+                                                    its[1 - a]->surface, own[1 - b]->surface);
+               if (found.area <= most.area) { continue; }
+               most = found;
+               body = its[a]->body;
+            }
+         }
+         if (body < 0) { continue; }
+         warn(told("interfaces '", given[l].name, "' and '", given[k].name, "': about ",
+                   most.area, " of the area of body ", scene.reduction.bodies[body].name,
+                   " faces the other sides of both, for instance at (", most.place[0], ", ",
+                   most.place[1], ", ", most.place[2],
+                   "). It counts twice in areas, and both pass forces there. Move bodies apart "
+                   "that overlap each other, or end one of these interfaces there (by an "
+                   "interval, as in top[0<x<2])"));
+      }
    }
 }
 

@@ -35,6 +35,11 @@ nodes_at_corners(const Scene &scene, const std::vector<cattaneo::Interface> &giv
 /// than a tenth of its area.
 void warn_of_seams(const Scene &scene, const std::vector<cattaneo::Interface> &given);
 
+/// Warns of parts of a body that face the other sides of two interfaces, because the bodies
+/// opposite overlap each other.
+void warn_of_faces_covered_twice(const Scene &scene,
+                                 const std::vector<cattaneo::Interface> &given);
+
 /// Warns of the sharpest one that bears in a march; p: the largest force of each node.
 void warn_of_corners(const std::vector<NodeAtCorner> &corners, const Eigen::VectorXd &p);
 

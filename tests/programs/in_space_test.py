@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 
@@ -614,6 +615,63 @@ def test_a_tie_over_a_distance_is_warned_of(run):
     assert "the sides overlap by 1 at" in run.refused(case(-1)) and "sides that are tied must touch" in run.refused(case(-1))
 
 
+@pytest.mark.parametrize("order, elements", [(1, "hexahedra"), (1, "wedges"), (2, "tetrahedra")])
+def test_a_tie_between_seams_is_not_apart(run, order, elements):
+    """A block lies on four others whose seams run within its faces; two of these are tied. All sides are in one plane, so that no tie is
+    apart, although its nodes lie beside the side opposite. Where the tied blocks are lower by 0.1, ties are apart by this length."""
+    def case(low):
+        def one(x, y, z, cells, **keys):
+            return {"block": brick((x, cells), (y, cells), (z, 1), elements), "young": 1000, "poisson": 0, **keys}
+        made = {"analysis": "space", "order": order, "history": ["P=0", "P=1"], "interfaces": {},
+                "bodies": {"up": one([0, 4], [0, 3], [0, 1], 3, load="P traction top 0.1 0 -2")}}
+        for k, (x, y) in enumerate((x, y) for y in ([0, 1.38], [1.38, 3]) for x in ([0, 2.56], [2.56, 4])):
+            tied = k in (0, 3)
+            made["bodies"][f"l{k}"] = one(x, y, [-1, -low if tied else 0], 2 + k % 2, support="bottom:xyz")
+            made["interfaces"][f"c{k}"] = {"between": ["up:bottom", f"l{k}:top"], "slave": "first", **({"tied": True} if tied else {"friction": 0.5})}
+        return made
+    assert "tied although" not in run.case(case(0)).warned()
+    apart = run.case(case(0.1)).warned()
+    for name in ("c0", "c3"):
+        assert f"interface '{name}': its sides are tied although they are apart by up to 0.1, at" in apart, apart
+
+
+def test_bodies_that_overlap_below_a_side_are_said(run):
+    """Two blocks below one overlap each other between x = 1 and 2: 2 of the area of the upper one, which is 8, faces both of them, with
+    either slave. Blocks that meet at a seam within faces face no place twice."""
+    def case(low, slave=None):
+        def one(x, y, z, cells, **keys):
+            return {"block": brick((x, cells), (y, 3), (z, 1)), "young": 1000, "poisson": 0.3, **keys}
+        face = {"friction": 0.3, **({"slave": slave} if slave else {})}
+        return {"analysis": "space", "order": 1, "history": ["P=0", "P=1"],
+                "bodies": {"up": one([0, 4], [0, 2], [0, 1], 5, load="P pressure top 2"),
+                           "l1": one([-1, 2], [-0.5, 2.5], [-1, 0], 4, support="bottom:xyz"),
+                           "l2": one([low, 5], [-0.5, 2.5], [-1, 0], 5, support="bottom:xyz")},
+                "interfaces": {"a": {"between": ["up:bottom", "l1:top"], **face}, "b": {"between": ["up:bottom", "l2:top"], **face}}}
+    for slave in (None, "first", "second"):
+        said = run.case(case(1, slave)).warned()
+        told = re.search(r"interfaces 'a' and 'b': about ([0-9.]+) of the area of body up faces the other sides of both", said)
+        # Each of the three faces along y and two along x is taken in 128 parts.
+        assert told and abs(float(told[1]) - 2) < 0.2, said
+        assert "faces the other sides of both" not in run.case(case(2, slave)).warned()
+
+
+def test_moments_are_about_the_middle_beside_a_tie(run):
+    """Half of a side is tied, and the tie has the nodes at the edge that both halves share. Each half bears a pressure of 2 on 2 × 2, with
+    no moment about its middle."""
+    def one(z, cells, **keys):
+        return {"block": brick(([0, 4], cells), ([0, 2], 2), (z, 2)), "young": 1000, "poisson": 0, **keys}
+    halves = {"t": "[0<x<2]", "c": "[2<x<4]"}
+    for order in (1, 2):
+        got = run.case({"analysis": "space", "order": order, "history": ["P=0", "P=1"],
+                        "bodies": {"up": one([0, 1], 2, load="P pressure top 2"), "lo": one([-1, 0], 6, support="bottom:xyz")},
+                        "interfaces": {name: {"between": ["up:bottom" + part, "lo:top" + part], "slave": "first",
+                                              **({"tied": True} if name == "t" else {"friction": 0.2})} for name, part in halves.items()}})
+        for name, x in (("t", 1), ("c", 3)):
+            row = got.interface(name)
+            near_all([row["about_x"] - x, row["about_y"] - 1, row["about_z"], row["force_z"] - 8], 0, 1e-9)
+            near_all([row["moment_x"], row["moment_y"], row["moment_z"]], 0, 1e-9)
+
+
 def test_moments_of_interfaces_and_supports(run):
     """A block that is pushed at its top stands on another one: N acts where statics say, beside the middle, so that the moment about it is
     the shear times the height. The support below takes it with the height of the lower block, and each row says its place."""
@@ -789,6 +847,11 @@ def test_chords_of_a_press_fit_are_warned_of(run):
     said = run.case(case)
     assert "its elements are chords of curves" in said.warned() and "nodes that match" in said.warned(), said.warned()
     assert said["chords_node_pressure_change_estimate"] > 0.05
+    # A given gap leaves nothing open.
+    case["interfaces"]["fit"]["gap"] = -0.01
+    meant = run.case(case)
+    assert "chords" not in meant.warned() and "chords_node_pressure_change_estimate" not in meant.results
+    del case["interfaces"]["fit"]["gap"]
     # Elements of order 2 on a mesh with straight edges have chords of the same height.
     case["order"] = 2
     case["bodies"]["hub"]["mesh"] = ring("hub.mesh", 4.99, 8, 7)

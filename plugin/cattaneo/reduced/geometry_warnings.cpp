@@ -1,6 +1,5 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cattaneo/condense/face_functions.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
@@ -160,59 +159,35 @@ void say_moved(const Reduction &reduction, const InterfaceReport &face,
       "before the part that is moved"));
 }
 
-/// The point of a triangle that is nearest to a place.
-Vector3d nearest_on_triangle(const Vector3d &place, const std::array<Vector3d, 3> &corners)
-{
-   const Vector3d one = corners[1] - corners[0], two = corners[2] - corners[0],
-                  across = one.cross(two);
-   Vector3d nearest = corners[0];
-   bool inside = across.norm() > 0;
-   for (std::size_t k = 0; k < 3; ++k)
-   {
-      const Vector3d &from = corners[k];
-      const Vector3d along = corners[(k + 1) % 3] - from, to = place - from;
-      inside = inside && across.dot(along.cross(to)) >= 0;
-      const double share = std::clamp(to.dot(along) / along.squaredNorm(), 0.0, 1.0);
-      const Vector3d on_edge = from + share * along;
-      if ((place - on_edge).norm() < (place - nearest).norm()) { nearest = on_edge; }
-   }
-   if (!inside) { return nearest; }
-   return place - across * (across.dot(place - corners[0]) / across.squaredNorm());
-}
-
 /// Sides in space that are tied although they are apart, or overlap.
 void say_apart(const Reduction &reduction, const InterfaceReport &face,
                std::vector<std::string> &said)
 {
    if (!face.tied || face.bodies[1] < 0 || face.places.rows() != face.nodes) { return; }
-   const ContactSurface &other = reduction.bodies[face.bodies[1]].surface;
+   Index ties = 0;
+   for (const InterfaceReport &one : reduction.interfaces) { ties += one.tied ? one.nodes : 0; }
+   const Eigen::VectorXd none = Eigen::VectorXd::Zero(reduction.problem.nodes());
    double most = 0, worst = 0; // in distances of nodes, and as a length, of an overlap negative
    Vector3d place(0, 0, 0);
    for (Index i = 0; i < face.nodes; ++i)
    {
-      const Vector3d here = face.places.row(i), normal = face.frames.row(i).segment<3>(6);
-      double away = std::numeric_limits<double>::infinity(), apart = 0;
-      for (const std::vector<Index> &nodes : other.faces)
+      // The work of a unit force of the tie on the places of the nodes that it acts on, which
+      // is the distance of the parts that it holds together.
+      const Eigen::VectorXd force = Eigen::VectorXd::Unit(3 * ties, 2 * ties + face.first + i);
+      double apart = 0;
+      for (const int b : std::set<int>{face.bodies[0], face.bodies[1]})
       {
-         const std::size_t corners = corners_of(nodes.size());
-         for (std::size_t k = 2; k < corners; ++k)
+         const Eigen::MatrixXd forces = reduction.contact_forces(b, {}, none, force);
+         for (Index k = 0; k < forces.rows(); ++k)
          {
-            const std::array<Vector3d, 3> at{other.nodes[nodes[0]].position,
-                                             other.nodes[nodes[k - 1]].position,
-                                             other.nodes[nodes[k]].position};
-            // Faces that look the same way are those of the side itself.
-            if (other.nodes[nodes[0]].normal().dot(normal) > -0.5) { continue; }
-            const Vector3d to = here - nearest_on_triangle(here, at);
-            if (to.norm() >= away) { continue; }
-            away = to.norm();
-            apart = to.dot(normal) < 0 ? -away : away;
+            apart += forces.row(k).dot(reduction.bodies[b].surface.nodes[k].position);
          }
       }
-      if (std::isfinite(away) && away > most * face.spacing[i])
+      if (std::abs(apart) > most * face.spacing[i])
       {
-         most = away / face.spacing[i];
+         most = std::abs(apart) / face.spacing[i];
          worst = apart;
-         place = here;
+         place = face.places.row(i);
       }
    }
    if (most <= 0.02) { return; }

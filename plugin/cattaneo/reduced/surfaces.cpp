@@ -632,7 +632,9 @@ InterfaceReport report_on_surfaces(const MetInterface &met, const std::vector<Co
    if (met.surfaces.nodes.size() > 0)
    {
       report.turn = met.surfaces.turn;
-      report.chords = met.surfaces.chords;
+      // A given gap is that of the sides as they are meant.
+      const bool given = met.given->gap || met.given->node_gaps;
+      report.chords = given ? VectorXd(VectorXd::Zero(report.nodes)) : met.surfaces.chords;
       report.left_out = met.surfaces.left_out;
    }
    for (int k : met.without_row)

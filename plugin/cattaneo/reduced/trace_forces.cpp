@@ -24,6 +24,7 @@ MatrixXd Reduction::contact_forces(int b, const VectorXd &q, const VectorXd &p,
    // A column of forces {q; p} in the frame of a row.
    const auto add = [&](int row, const VectorXd &in_frame)
    {
+      if (in_frame.isZero(0)) { return; }
       const ContactRow &of = rows_->rows[row];
       const VectorXd its = of.frame(d).transpose() * in_frame;
       for (const TraceShare &share : of.shares)
