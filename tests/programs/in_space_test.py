@@ -655,6 +655,29 @@ def test_bodies_that_overlap_below_a_side_are_said(run):
         assert "faces the other sides of both" not in run.case(case(2, slave)).warned()
 
 
+@pytest.mark.parametrize("slave", ["first", "second", None])
+def test_faces_behind_others_do_not_count(run, slave):
+    """A block stands on an arm over a slot. The slot's floor looks the same way: if it is named with the arm's top, all is as without it."""
+    nodes, solids, _ = solid((4, 2, 3), (4, 2, 3), "hexahedra")
+    arm = [s for s in solids if not all(nodes[v][0] >= 1 and 1 <= nodes[v][2] <= 2 for v in s)]
+    quads = [[h[a] for a in q] for h in arm for q in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))]
+    alone = [q for k, q in enumerate(quads) if sum(set(q) == set(other) for other in quads) == 1]
+    def side(q):
+        low, high = min(nodes[v][2] for v in q), max(nodes[v][2] for v in q)
+        return {0: 1, 1: 8, 3: 6}.get(low, 2) if low == high else 2
+    mesh = run.write("arm.mesh", mfem_text(nodes, arm, [(side(q), q) for q in alone]))
+    def case(sides):
+        return {"analysis": "space", "order": 1, "history": ["P=0", "P=1", "Q=1"],
+                "bodies": {"up": {"block": brick(([0.5, 3.7], 5), ([0.2, 1.7], 2), ([3, 4], 2)), "young": 1000, "poisson": 0.3,
+                                  "load": "P pressure top 2; Q traction top 0.3 0 0"},
+                           "lo": {"mesh": mesh, "young": 1000, "poisson": 0.3, "support": "1:xyz"}},
+                "interfaces": {"c": {"between": ["up:bottom", f"lo:{sides}"], "friction": 0.4, **({"slave": slave} if slave else {})}}}
+    top, both = run.case(case("6")), run.case(case("6,8"))
+    for key in ("normal", "tangential", "moment_x", "moment_y", "stick", "slip", "separation", "about_x", "about_z"):
+        near(both.interface("c")[key] - top.interface("c")[key], 0, 1e-8)
+    near_relative(both["peak_pressure"], top["peak_pressure"], 1e-9)
+
+
 def test_moments_are_about_the_middle_beside_a_tie(run):
     """Half of a side is tied, and the tie has the nodes at the edge that both halves share. Each half bears a pressure of 2 on 2 × 2, with
     no moment about its middle."""

@@ -66,30 +66,48 @@ double area_of(const Polygon &polygon)
    return area;
 }
 
+/// The part of a polygon to the left of a line.
+Polygon left_of(const Polygon &subject, const Vector2d &from, const Vector2d &to)
+{
+   const Vector2d along = to - from;
+   const auto inside = [&](const Vector2d &x)
+   { return along[0] * (x[1] - from[1]) - along[1] * (x[0] - from[0]); };
+   Polygon kept;
+   for (std::size_t i = 0; i < subject.size(); ++i)
+   {
+      const Vector2d &here = subject[i], &next = subject[(i + 1) % subject.size()];
+      const double one = inside(here), other = inside(next);
+      if (one >= 0) { kept.push_back(here); }
+      if ((one > 0 && other < 0) || (one < 0 && other > 0))
+      {
+         kept.push_back(here + one / (one - other) * (next - here));
+      }
+   }
+   return kept;
+}
+
 /// The part of a polygon that lies within a convex one, whose corners go counter-clockwise
 /// [Sutherland 1974].
 Polygon clipped(Polygon subject, const Polygon &convex)
 {
    for (std::size_t k = 0; k < convex.size() && !subject.empty(); ++k)
    {
-      const Vector2d &from = convex[k];
-      const Vector2d along = convex[(k + 1) % convex.size()] - from;
-      const auto inside = [&](const Vector2d &x)
-      { return along[0] * (x[1] - from[1]) - along[1] * (x[0] - from[0]); };
-      Polygon kept;
-      for (std::size_t i = 0; i < subject.size(); ++i)
-      {
-         const Vector2d &here = subject[i], &next = subject[(i + 1) % subject.size()];
-         const double one = inside(here), other = inside(next);
-         if (one >= 0) { kept.push_back(here); }
-         if ((one > 0 && other < 0) || (one < 0 && other > 0))
-         {
-            kept.push_back(here + one / (one - other) * (next - here));
-         }
-      }
-      subject = std::move(kept);
+      subject = left_of(subject, convex[k], convex[(k + 1) % convex.size()]);
    }
    return subject;
+}
+
+/// Adds the parts of a polygon that lie outside a convex one, if they have more than an area.
+void add_outside(Polygon subject, const Polygon &convex, double least,
+                 std::vector<Polygon> &parts)
+{
+   for (std::size_t k = 0; k < convex.size() && subject.size() > 2; ++k)
+   {
+      const Vector2d &from = convex[k], &to = convex[(k + 1) % convex.size()];
+      Polygon beyond = left_of(subject, to, from);
+      if (beyond.size() > 2 && area_of(beyond) > least) { parts.push_back(std::move(beyond)); }
+      subject = left_of(subject, from, to);
+   }
 }
 
 /// A face of a surface.
@@ -397,9 +415,54 @@ void SurfaceAssembly::find_overlaps(std::size_t e)
       away.push_back(std::abs(across) - 2 * reach);
       nearest = std::min(nearest, std::abs(across));
    }
+   // 2. Faces that may hide others: of the master, and of the slave's own surface.
+   struct Shade
+   {
+      const MortarFace *face;
+      bool own;
+      Polygon polygon;
+   };
+   std::vector<Shade> shades;
+   const auto add_shade = [&](const MortarFace &other, bool own)
+   {
+      const FlatNodes its = plane.flat(other);
+      for (const std::vector<Index> &piece : linear_parts(other.nodes.size()))
+      {
+         Polygon made = polygon(its, piece);
+         if (!own) { std::reverse(made.begin(), made.end()); }
+         shades.push_back({&other, own, std::move(made)});
+      }
+   };
    for (std::size_t k = 0; k < found.size(); ++k)
    {
-      // 2. Of several layers only the nearest counts. Within a ball a surface that looks at the
+      if (away[k] <= nearest) { add_shade(opposite_[found[k]], false); }
+   }
+   for (const MortarFace &other : faces_)
+   {
+      const Vector3d apart = other.middle - face.middle;
+      const double across = apart.dot(face.normal), reach = face.radius + other.radius;
+      const bool over = apart.squaredNorm() - across * across <= reach * reach;
+      if (over && across < 0 && face.normal.dot(other.normal) > 0.5) { add_shade(other, true); }
+   }
+   // How far outside this face another one lies at a place of the plane. Faces of one layer do
+   // not lie over each other, so that round-off and curvature alone are to be left aside.
+   const auto outside = [&](const MortarFace &other, const Vector2d &place)
+   {
+      const Vector3d here = plane.from + plane.along.transpose() * place;
+      return -(other.middle - here).dot(other.normal) / face.normal.dot(other.normal);
+   };
+   const double layer = 0.1 * face.radius;
+   const auto hides = [&](const Shade &shade, const MortarFace &other, const Polygon &part)
+   {
+      Vector2d place(0, 0);
+      for (const Vector2d &corner : part) { place += corner / double(part.size()); }
+      const double its = outside(other, place), of_shade = outside(*shade.face, place);
+      return shade.own ? of_shade > layer && its > 0.5 * of_shade
+                       : std::abs(its) - std::abs(of_shade) > layer;
+   };
+   for (std::size_t k = 0; k < found.size(); ++k)
+   {
+      // 3. Of several layers only the nearest counts. Within a ball a surface that looks at the
       // face rises by no more than twice its size.
       if (away[k] > nearest) { continue; }
       const MortarFace &other = opposite_[found[k]];
@@ -411,10 +474,29 @@ void SurfaceAssembly::find_overlaps(std::size_t e)
          for (std::size_t p = 0; p < parts.size(); ++p)
          {
             Polygon overlap = clipped(subject, parts[p]);
-            const double area = overlap.size() < 3 ? 0 : area_of(overlap);
-            if (area <= area_round_off * whole) { continue; }
-            covered_[e][p] += area;
-            overlaps_[e].push_back({p, found[k], std::move(overlap)});
+            const double least = area_round_off * whole;
+            if (overlap.size() < 3 || area_of(overlap) <= least) { continue; }
+            std::vector<Polygon> seen{std::move(overlap)};
+            for (const Shade &shade : shades)
+            {
+               std::vector<Polygon> left;
+               for (Polygon &one : seen)
+               {
+                  const Polygon hidden =
+                     hides(shade, other, one) ? clipped(one, shade.polygon) : Polygon();
+                  if (hidden.size() < 3 || area_of(hidden) <= least)
+                  {
+                     left.push_back(std::move(one));
+                  }
+                  else { add_outside(std::move(one), shade.polygon, least, left); }
+               }
+               seen = std::move(left);
+            }
+            for (Polygon &one : seen)
+            {
+               covered_[e][p] += area_of(one);
+               overlaps_[e].push_back({p, found[k], std::move(one)});
+            }
          }
       }
    }
