@@ -78,6 +78,7 @@ def test_densities_of_no_solid_are_said(run):
     assert "density" not in got.warned() and 5170 < got["speeds_of_sound"]["nut"]["least"] < 5180
 
 
+@pytest.mark.rest
 def test_a_range_without_amplitudes_ends_where_the_joint_ratchets(run):
     """And an energy at which it ratchets, which has no loop, is in the column of energies and not in that of amplitudes."""
     got = run.case(shipped("bolted_joint"), "--modes", 1, "--amplitude-of", "energy", program="joint")
