@@ -211,7 +211,7 @@ void map_of_losses(Study &study, const Reduction &reduction, Index mode,
 {
    const ReportInSpace::Map map = ReportInSpace::map_of(reduction, face);
    Panel &panel = study.panel(Panel::Kind::map, "losses_" + std::to_string(mode),
-                              title + ": share of the loss per area at " + face.name,
+                              title + ": loss per area at " + face.name,
                               direction_name(map.across) + study.units.of(0, 1),
                               direction_name(map.up) + study.units.of(0, 1));
    for (const auto &triangle : map.triangles)

@@ -607,8 +607,8 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
       const std::string by = "option --sweep";
       const Option &option = changeable(by, key);
       const std::string &name = option.names.name;
-      const auto swept = [&](const Given &given)
-      { return key == name && given.option == &option; };
+      const bool whole = key == name; // not a place within its value
+      const auto swept = [&](const Given &given) { return whole && given.option == &option; };
       require(std::none_of(given_.begin(), given_.end(), swept), "option --", name,
               " has a value and is swept, must be one of the two");
       const nlohmann::ordered_json &now = values_.at(name);

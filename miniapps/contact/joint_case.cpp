@@ -360,7 +360,7 @@ JointCase::Body body_in_space(const Key &key, const std::string &name)
    {
       const Key block = key["block"];
       block.must_be_of({"x", "y", "z", "elements"});
-      made.brick.emplace();
+      made.brick = JointCase::Body::Brick();
       made.brick->axes = {brick_axis(block["x"]), brick_axis(block["y"]),
                           brick_axis(block["z"])};
       if (block.has("elements"))
@@ -504,7 +504,8 @@ void add_obstacle_in_space(JointCase::Face &face, const Key &key)
    key.must_be_of({"plane", "sphere", "cylinder", "height"});
    require(key.value().size() == 1, key.called(),
            " must have one of the keys plane, sphere, cylinder and height");
-   JointCase::Face::Solid &solid = face.solid.emplace();
+   face.solid = JointCase::Face::Solid();
+   JointCase::Face::Solid &solid = *face.solid;
    const auto set_axis = [&](const Key &axis)
    {
       solid.axis = axis.triple();

@@ -195,7 +195,7 @@ void NamedPoints::report(const ContactState &state)
    for (std::size_t k = 0; k < places_.size(); ++k)
    {
       const Place &place = places_[k];
-      std::vector<ordered_json> row = {place.name, joint_.bodies[place.body].name};
+      std::vector<nlohmann::ordered_json> row = {place.name, joint_.bodies[place.body].name};
       for (const double value : numbers(place, now[k])) { row.emplace_back(value); }
       study_.row(table, row);
    }

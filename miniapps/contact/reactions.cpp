@@ -49,7 +49,7 @@ class Forces
 public:
    Forces(OwnBodies &own, const BoltsReport &bolts, const JointCase &joint, int body,
           const ContactState &state)
-      : own_(own), reduction_(own.scene.reduction), held_(own.held[body]), body_(body),
+      : reduction_(own.scene.reduction), held_(own.held[body]), body_(body),
         plane_(joint.formulation == Formulation::plane), thickness_(joint.thickness_of(body)),
         state_(state), loads_(state.multipliers)
    {
@@ -272,7 +272,6 @@ private:
       return made;
    }
 
-   OwnBodies &own_;
    Reduction &reduction_;
    const HeldBody &held_;
    int body_;
