@@ -22,8 +22,9 @@ struct BoundaryPart
    /// An interval of a coordinate: 0 = x, 1 = y, 2 = z.
    struct Interval
    {
-      int axis; ///< coordinate
-      double lo, hi;
+      int axis;  ///< coordinate
+      double lo; ///< lower end, in the mesh's units
+      double hi; ///< upper end
    };
    /// In space: further intervals, in all of which the piece lies.
    std::vector<Interval> also = {};
