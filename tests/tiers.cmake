@@ -5,7 +5,7 @@
 set(helpers_with_mfem "/support/(axisymmetric_integrator|elastic_support|punch_problem|two_blocks)\\.cpp$")
 
 # With CMAKE_UNITY_BUILD so many bytes of tests are compiled as one file: more take less time, and more memory.
-set(bytes_compiled_as_one 30000)
+set(bytes_of_tests 30000)
 
 set(rooms_of_tests ${CMAKE_CURRENT_LIST_DIR}/rooms.txt)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rooms_of_tests})
@@ -37,17 +37,6 @@ function(files_of_tests kind tier files)
       endif()
    endforeach()
    set(${files} ${found} PARENT_SCOPE)
-endfunction()
-
-# Compiles the sources of a test program in pieces of about that size.
-function(compile_tests_in_pieces target)
-   set(bytes 0)
-   foreach(file IN LISTS ARGN)
-      file(SIZE ${file} size)
-      math(EXPR bytes "${bytes} + ${size}")
-   endforeach()
-   math(EXPR pieces "${bytes} / ${bytes_compiled_as_one} + 1")
-   compile_in_pieces(${target} ${target} ${pieces} ${ARGN})
 endfunction()
 
 # Sets `filter` to the single tests in these files that rooms.txt leaves to the rest, as GoogleTest names them.
