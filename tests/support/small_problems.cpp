@@ -37,4 +37,14 @@ cattaneo::ReducedProblem four_springs()
    return problem;
 }
 
+cattaneo::LoadHistory press_then_shear(double amplitude, int cycles)
+{
+   cattaneo::LoadHistory history = cattaneo::LoadHistory::through(
+      {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(1, amplitude),
+       Eigen::Vector2d(1, -amplitude), Eigen::Vector2d(1, 0)});
+   history.cycle_start = 1;
+   history.cycles = cycles;
+   return history;
+}
+
 } // namespace cattaneo_test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cattaneo/friction/march.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 
 /// Reduced problems whose answers are known by hand.
@@ -14,5 +15,8 @@ cattaneo::ReducedProblem one_block(double f);
     sticks with q = 0.1; -0.5 = 2 v - 0.8 slips forward, 0.5 = 2 v + 0.7 backward; the last
     moves freely, 0 = 2 v + 0.3. */
 cattaneo::ReducedProblem four_springs();
+
+/// Pressed by 1, the first load, then sheared to `amplitude` and minus that in each cycle.
+cattaneo::LoadHistory press_then_shear(double amplitude, int cycles);
 
 } // namespace cattaneo_test
