@@ -2,7 +2,7 @@
 # part of it there; rest: ./test --all and ./test --room) and the rooms of plugin/cattaneo that it looks at.
 
 # Helpers that know MFEM.
-set(helpers_with_mfem "/support/(axisymmetric_integrator|elastic_support|punch_problem|two_blocks)\\.cpp$")
+set(helpers_with_mfem "/support/(axisymmetric_integrator|cylinders|elastic_support|meshes_of_lines|punch_problem|two_blocks)\\.cpp$")
 
 # With CMAKE_UNITY_BUILD so many bytes of tests are compiled as one file: more take less time, and more memory.
 set(bytes_of_tests 30000)

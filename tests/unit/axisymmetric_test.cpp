@@ -1,4 +1,4 @@
-#include "axisymmetric_integrator.hpp"
+#include "cylinders.hpp"
 #include "elastic_support.hpp"
 #include <cattaneo/elastic/point_stress.hpp>
 
@@ -9,33 +9,8 @@ namespace
 
 using namespace cattaneo;
 using namespace support;
-
-/// [0, 2] × [0, 1] with its left side on the axis (attribute 4), distorted inside.
-mfem::Mesh cylinder(const std::string &kind, double inner = 0.0, int nr = 4, int nz = 3)
-{
-   mfem::Mesh mesh = block(kind == "triangles" ? kind : "quads", nr, nz);
-   const auto distort = [&](double r, double z, double *to)
-   {
-      const double bubble = std::sin(0.5 * M_PI * r) * std::sin(M_PI * z);
-      to[0] = inner + r + 0.12 * bubble;
-      to[1] = z - 0.09 * bubble;
-   };
-   if (kind == "curved")
-   {
-      mesh.SetCurvature(2);
-      // MFEM 4.6 takes no lambda that captures.
-      mfem::VectorFunctionCoefficient distorted(2, [&](const mfem::Vector &x, mfem::Vector &y)
-                                                { distort(x(0), x(1), y.GetData()); });
-      mesh.Transform(distorted);
-      return mesh;
-   }
-   for (int v = 0; v < mesh.GetNV(); ++v)
-   {
-      double *x = mesh.GetVertex(v);
-      distort(x[0], x[1], x);
-   }
-   return mesh;
-}
+using cattaneo_test::cylinder;
+using cattaneo_test::kinds;
 
 template <class F>
 VectorXd nodal(const ElasticBody &body, F field)
@@ -65,8 +40,6 @@ double imbalance(const ElasticBody &body, const VectorXd &U, double scale = 0.0)
    for (int dof : body.essential_dofs()) { residual[dof] = 0; }
    return residual.cwiseAbs().maxCoeff() / scale;
 }
-
-const char *const kinds[] = {"quads", "triangles", "curved"};
 
 TEST(Axisymmetric, PassesThePatchTests)
 {
@@ -204,61 +177,6 @@ TEST(Axisymmetric, PartialLoadsAreExact)
          EXPECT_NEAR(twisted.patterns()[0].values.sum(),
                      2 * M_PI * (std::pow(a, 3) / 3 + std::pow(a, 4) / 4), 1e-13);
       }
-   }
-}
-
-TEST(Axisymmetric, TheAxisIsHeldAndTheOtherSideRefused)
-{
-   mfem::Mesh mesh = cylinder("quads");
-   for (int order : {1, 3})
-   {
-      ElasticBody body(mesh, order, Material{}, Formulation::axisymmetric);
-      EXPECT_EQ(body.essential_dofs().Size(), 3 * order + 1);
-      for (int node = 0; node < body.node_coordinates().Width(); ++node)
-      {
-         if (body.node_coordinates()(0, node) == 0)
-         {
-            EXPECT_GE(body.essential_dofs().Find(body.true_dof(node, 0)), 0);
-         }
-      }
-      body.add_displacement("squeeze", 1, 0, [](double r, double) { return -r; });
-      expect_input_error([&] { body.add_displacement("bad", 1, 0, 1.0); },
-                         "must be zero on the axis");
-      expect_input_error([&] { body.fix(1, 2); }, "must be 0 (r) or 1 (z)");
-      expect_input_error([&] { body.add_traction("t", 3, 1.0); }, "must be two");
-      for (Guide::Motion motion : {Guide::Motion::force, Guide::Motion::displacement})
-      {
-         const Guide::Along moves{motion, "moves"};
-         Guide sideways{moves, {}}, turning{{}, {}, moves}, along_the_axis{{}, moves};
-         for (const Guide *bad : {&sideways, &turning})
-         {
-            expect_input_error([&] { body.guide(3, *bad); }, "must not be given");
-         }
-         ElasticBody other(mesh, order, Material{}, Formulation::axisymmetric);
-         EXPECT_NO_THROW(other.guide(3, along_the_axis));
-      }
-      ElasticBody torsion(mesh, order, Material{}, Formulation::torsion);
-      expect_input_error([&] { torsion.fix(1, 1); }, "must be 0 (twist)");
-      expect_input_error([&] { torsion.add_pressure("p", 3, 1.0); }, "must be 0 (twist)");
-      // On the axis (attribute 4) nothing moves around it, whatever its angle.
-      torsion.fix(4, 0);
-      torsion.fix_node(0, 0.5, 0);
-      EXPECT_EQ(torsion.essential_dofs().Size(), 0);
-      expect_input_error([&] { torsion.add_displacement("w", 4, 0, 1.0); }, "lies on the axis");
-      torsion.fix(1, 0);
-      EXPECT_GT(torsion.essential_dofs().Size(), 0);
-   }
-   EXPECT_EQ(ElasticBody(mesh, 1, Material{}).essential_dofs().Size(), 0);
-   mfem::Mesh across = cylinder("quads", -0.25);
-   for (auto formulation : {Formulation::axisymmetric, Formulation::torsion})
-   {
-      expect_input_error([&] { ElasticBody(across, 1, Material{}, formulation); },
-                         "is at r = -0.25");
-      expect_input_error(
-         [&] {
-            ElasticBody(mesh, 1, Material{1, 0.3, PlaneState::stress}, formulation);
-         },
-         "plane stress");
    }
 }
 
@@ -593,120 +511,6 @@ TEST(Torsion, TorqueOfStressAndOfContactForcesAgree)
    }
    EXPECT_GT(torque, 0);
    EXPECT_NEAR(section, torque, 1e-12 * torque);
-}
-
-TEST(Axisymmetric, TakesAnOperatorOfTheUsersOwn)
-{
-   const Material material{2.6, 0.3};
-   mfem::Mesh mesh = cylinder("triangles");
-   for (auto formulation : {Formulation::axisymmetric, Formulation::torsion})
-   {
-      ElasticBody body(mesh, 2, material, formulation);
-      mfem::H1_FECollection collection(2, 2);
-      mfem::FiniteElementSpace space(&mesh, &collection, body.components(),
-                                     mfem::Ordering::byNODES);
-      mfem::ConstantCoefficient lambda(material.lambda()), mu(material.mu());
-      mfem::FunctionCoefficient moment(polar_moment);
-      mfem::ProductCoefficient torsion(mu, moment);
-      mfem::BilinearForm form(&space);
-      mfem::BilinearFormIntegrator *integrator = nullptr;
-      if (formulation == Formulation::torsion)
-      {
-         integrator = torsion_integrator(space, torsion);
-      }
-      else { integrator = new AxisymmetricElasticityIntegrator(lambda, mu); }
-      form.AddDomainIntegrator(integrator);
-      form.Assemble();
-      form.Finalize();
-      ElasticBody own(space, form.SpMat(), formulation);
-      EXPECT_EQ(own.essential_dofs().Size(), body.essential_dofs().Size());
-      for (ElasticBody *one : {&body, &own})
-      {
-         one->fix(3, one->components() - 1);
-         if (formulation == Formulation::torsion) { one->add_traction("t", 2, 1.0); }
-         else { one->add_pressure("t", 2, 1.0); }
-      }
-      const CondensedBody a = condense(body, contact_line(body, 1)),
-                          b = condense(own, contact_line(own, 1));
-      EXPECT_LT(difference(a.S, b.S), 1e-12);
-      EXPECT_LT(difference(a.patterns[0].q, b.patterns[0].q), 1e-11);
-   }
-   mfem::H1_FECollection collection(2, 2);
-   mfem::FiniteElementSpace two(&mesh, &collection, 2);
-   expect_input_error([&] { ElasticBody(two, mfem::SparseMatrix(), Formulation::torsion); },
-                      "must have 1");
-}
-
-TEST(Axisymmetric, NumberingOfTheMeshDoesNotMatter)
-{
-   for (auto formulation : {Formulation::axisymmetric, Formulation::torsion})
-   {
-      mfem::Mesh mesh = cylinder("quads"), other = cylinder("quads");
-      mfem::Array<int> order(other.GetNE());
-      for (int e = 0; e < order.Size(); ++e) { order[e] = (5 * e + 3) % order.Size(); }
-      other.ReorderElements(order);
-      const auto condensed = [&](mfem::Mesh &one)
-      {
-         ElasticBody body(one, 3, Material{}, formulation);
-         body.fix(3, body.components() - 1);
-         return condense(body, contact_line(body, 1));
-      };
-      const CondensedBody a = condensed(mesh), b = condensed(other);
-      EXPECT_EQ(a.line.each(&LineNode::position), b.line.each(&LineNode::position));
-      EXPECT_LT(difference(a.S, b.S), 1e-12);
-   }
-}
-
-/// A body that is moved along its axis is an equal one; only its factor is shared.
-TEST(Axisymmetric, EqualBodiesShareOneFactor)
-{
-   mfem::Mesh here = rectangle_mesh(uniform(0, 2, 4), uniform(0, 1, 4)),
-              there = rectangle_mesh(uniform(0, 2, 4), uniform(8, 9, 4));
-   for (auto formulation : {Formulation::axisymmetric, Formulation::torsion})
-   {
-      ElasticBody a(here, 2, Material{}, formulation), b(there, 2, Material{}, formulation);
-      for (ElasticBody *body : {&a, &b}) { body->fix(3, body->components() - 1); }
-      const CondensedBody first = condense(a, contact_line(a, 1));
-      EXPECT_EQ(first.counters.factorisations, 1);
-      const CondensedBody second = condense(b, contact_line(b, 1), {}, &first);
-      EXPECT_EQ(second.counters.factorisations, 0);
-      EXPECT_EQ(first.S, second.S);
-   }
-}
-
-/// Half-space meshes are the right half of half-plane ones.
-TEST(Axisymmetric, HalfSpaceMesh)
-{
-   mfem::Mesh mesh = half_space_mesh(uniform(0, 1, 3), uniform(0, 1, 2), {1, 2, 5});
-   EXPECT_EQ(mesh.GetNE(), 3 * 2 + 2 * 5);
-   double area = 0;
-   for (int e = 0; e < mesh.GetNE(); ++e) { area += mesh.GetElementVolume(e); }
-   EXPECT_NEAR(area, 25, 1e-12);
-   double length[6] = {};
-   for (int i = 0; i < mesh.GetNBE(); ++i)
-   {
-      mfem::ElementTransformation &edge = *mesh.GetBdrElementTransformation(i);
-      mfem::IntegrationPoint middle;
-      middle.Set1w(0.5, 1.0);
-      edge.SetIntPoint(&middle);
-      length[mesh.GetBdrAttribute(i)] += edge.Weight();
-      mfem::Vector x;
-      edge.Transform(middle, x);
-      const int attribute = mesh.GetBdrAttribute(i);
-      EXPECT_TRUE(attribute == 5   ? x(0) == 0
-                  : attribute == 3 ? x(1) == -5
-                  : attribute == 4 ? x(0) == 5
-                                   : x(1) == 0);
-   }
-   for (int attribute = 1; attribute <= 5; ++attribute)
-   {
-      EXPECT_NEAR(length[attribute], attribute == 1 ? 1 : attribute == 2 ? 4 : 5, 1e-12);
-   }
-   expect_input_error(
-      [] {
-         half_space_mesh(uniform(-1, 1, 3), uniform(0, 1, 2), {1, 2});
-      },
-      "must start on the axis");
 }
 
 TEST(Axisymmetric, OnlyTranslationAlongTheAxisIsRigid)
