@@ -11,12 +11,12 @@
 //    joint --case meshes/bolted_joint.json --modes 4 --amplitudes "1e-7 … 2e-5"
 //    joint --case meshes/bolted_joint_drawing.json --modes 1 --points-of-curve 4
 
+#include "common/modal_curves.hpp"
 #include "common/run.hpp"
 #include "common/watch.hpp"
 #include "contact/contact_in_space.hpp"
 #include "contact/report_in_space.hpp"
 #include "joint/case_of_joint.hpp"
-#include "joint/modal_curves.hpp"
 
 #include <algorithm>
 #include <cattaneo/contact/vibrating_body.hpp>

@@ -20,7 +20,7 @@
 //    lap_joint --modes 2 --amplitudes "1e-7 3e-6" --spacing 0.025
 
 #include "common/contact_edges.hpp"
-#include "joint/modal_curves.hpp"
+#include "common/modal_curves.hpp"
 #include "lap_joint/bolted_loop.hpp"
 
 #include <algorithm>

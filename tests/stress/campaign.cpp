@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iostream>
 #include <sstream>
+#include <sys/time.h>
 #include <unistd.h>
 
 using namespace campaign;
@@ -101,7 +102,7 @@ class Campaign
 {
 public:
    bool verbose = false;
-   unsigned limit = 300; ///< seconds that one march may take
+   unsigned limit = 300; ///< seconds of CPU that one march may take, whatever else runs
    std::map<std::string, std::map<std::string, Row>> table;
    std::vector<Find> finds;
    std::string family, label, stepping;
@@ -111,7 +112,9 @@ public:
       made_ = &made;
       std::snprintf(running, sizeof running, "does not end: %s %s\n", label.c_str(),
                     stepping.c_str());
-      alarm(limit);
+      itimerval after{};
+      after.it_value.tv_sec = limit;
+      setitimer(ITIMER_PROF, &after, nullptr);
       row_ = &table[family][stepping];
       const auto start = Clock::now();
       try
@@ -500,7 +503,7 @@ int main(int argc, char **argv)
    Campaign campaign;
    campaign.verbose = verbose;
    campaign.limit = limit;
-   std::signal(SIGALRM, hangs);
+   std::signal(SIGPROF, hangs);
    const char *const steppings[] = {"increment", "fixed", "exact"};
    std::vector<std::pair<const FamilyEntry *, int>> all;
    double weight = 0;

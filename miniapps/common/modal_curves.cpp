@@ -1,4 +1,4 @@
-#include "joint/modal_curves.hpp"
+#include "common/modal_curves.hpp"
 
 #include "common/run.hpp"
 
