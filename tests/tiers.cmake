@@ -7,7 +7,7 @@ set(helpers_with_mfem "/support/(axisymmetric_integrator|cylinders|elastic_suppo
 # With CMAKE_UNITY_BUILD so many bytes of tests are compiled as one file: more take less time, and more memory.
 # Those of unit tests have MFEM, which takes half of the memory that a job may have.
 set(bytes_of_tests 30000)
-set(bytes_of_unit_tests 15000)
+set(bytes_of_unit_tests 20000)
 
 set(rooms_of_tests ${CMAKE_CURRENT_LIST_DIR}/rooms.txt)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rooms_of_tests})
