@@ -213,8 +213,8 @@ TEST(Modes, BarAlongItsAxis)
    mfem::Mesh high = rectangle_mesh(uniform(0, 0.02, 1), uniform(0.5, 1, 8));
    const Material bar{2.0, 0.0};
    ElasticBody a(low, 2, bar), b(high, 2, bar);
-   for (ElasticBody *each : {&a, &b}) { each->fix(BoundaryPart({right}), 0); }
-   for (ElasticBody *each : {&a, &b}) { each->fix(BoundaryPart({left}), 0); }
+   for (ElasticBody *each : {&a, &b}) { each->fix(BoundaryPart(right), 0); }
+   for (ElasticBody *each : {&a, &b}) { each->fix(BoundaryPart(left), 0); }
    a.fix(bottom, 1);
    b.add_pressure("P", top, 1e-3);
    Reduction reduction =
