@@ -7,11 +7,10 @@
     joints.write_dynamics("joint.mat", structure.craig_bampton(20), problem, {"B1": 4000.0})
 """
 
-import os
-from typing import Mapping
+from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+import os
+from typing import TYPE_CHECKING, Mapping
 
 from ._core import InputError, ReducedProblem
 from ._core.joints import (
@@ -23,6 +22,10 @@ from ._core.joints import (
     modal_curve as modal_curve,
     nodes_at_limit as nodes_at_limit,
 )
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 def _wide(value: float) -> str:
@@ -43,7 +46,7 @@ def _write_abaqus(
     for ending, matrix in (("STIF1", made.K), ("MASS1", made.M)):
         with open(f"{name}_{ending}.mtx", "w", encoding="utf-8") as out:
             for i, (node, direction) in enumerate(places):
-                for j in np.flatnonzero(matrix[i, : i + 1]):
+                for j in matrix[i, : i + 1].nonzero()[0]:
                     out.write(f"{node},{direction}, {places[j][0]},{places[j][1]}, {matrix[i, j]:.17g}\n")
     with open(f"{name}.inp", "w", encoding="utf-8") as out:
         out.write("** A joint by the method of Hurty, Craig and Bampton. Contact is not in the matrices.\n")
@@ -110,6 +113,8 @@ def write_dynamics(
     N); F (N, loads) and loads, their names; gap, friction, weights (n,); position; omega of the modes; rows, from 0, of
     {v; w} of the problem. In `.mat` these are the names and shapes of tmdsimpy's model of a Brake-Reuss beam.
     """
+    import numpy as np
+
     n, N = problem.nodes, made.K.shape[0]
     d = problem.components + 1
     L: NDArray[np.float64] = np.zeros((d * n, N))
