@@ -12,10 +12,10 @@ class WithoutIpopt : public testing::EmptyTestEventListener
 {
    void OnTestStart(const testing::TestInfo &test) override
    {
-      const char *const suites[] = {"CounterExample", "Design",        "FrictionLimit",
-                                    "Limit",          "LoadLimit",     "LowerLimit",
-                                    "Method2",        "LimitGradient", "LimitOfTheMesh",
-                                    "ThesisLimits",   "Transient"};
+      const char *const suites[] = {
+         "CounterExample", "Design",    "FrictionLimit", "Limit",          "LoadLimit",
+         "LowerLimit",     "Method2",   "LimitGradient", "LimitOfTheMesh", "ShakedownOfALaw",
+         "ThesisLimits",   "Transient", "WeakDuality"};
       const std::string suite = test.test_suite_name();
       if (std::find(std::begin(suites), std::end(suites), suite) != std::end(suites))
       {
