@@ -4,6 +4,7 @@
 #include <cattaneo/friction/disc.hpp>
 #include <cattaneo/friction/methods.hpp>
 #include <limits>
+#include <utility>
 
 namespace cattaneo
 {
@@ -18,76 +19,58 @@ void DiscEquations::begin()
    origin_ = {};
    factored_.clear();
    refines_ = false;
+   anew_ = true;
+   // Borders depend on earlier steps.
+   if (open_rows_.bordered()) { rows_.clear(); }
 }
 
 /// The open nodes, where all forces are zero, leave a stiffness of the closed ones.
 bool DiscEquations::eliminate_open(Increment &at)
 {
    FrictionSystem &s = at.system;
-   std::vector<signed char> is_open(s.n);
-   for (Index i = 0; i < s.n; ++i) { is_open[i] = closed(at.status[i]) ? 0 : 1; }
-   if (is_open_ == is_open) { return !singular_; }
-   is_open_ = is_open;
-   origin_ = {};
-   slipping_.clear();
-   open_.clear();
-   closed_.clear();
-   place_.assign(s.n, 0);
+   const bool anew = std::exchange(anew_, false);
    // B = 0: the gaps are found apart from the rest, and slip does not change the pressure.
    const Index components = s.problem.coupled ? 3 : 2;
-   for (Index k = 0; k < components; ++k)
+   std::vector<RowState> rows(s.K.rows(), RowState::absent);
+   for (Index i = 0; i < s.n; ++i)
    {
-      for (Index i = 0; i < s.n; ++i)
-      {
-         auto &rows = is_open[i] ? open_ : closed_;
-         if (k == 0 && !is_open[i]) { place_[i] = static_cast<Index>(rows.size()); }
-         rows.push_back(s.t(i, k));
-      }
+      const RowState state = closed(at.status[i]) ? RowState::closed : RowState::open;
+      for (Index k = 0; k < components; ++k) { rows[s.t(i, k)] = state; }
    }
-   closed_nodes_ = static_cast<Index>(closed_.size()) / components;
-   ++s.counters.dense_factorisations;
-   K_ = s.K(closed_, closed_);
-   singular_ = !open_.empty() && !open_factor_.compute(s.K(open_, open_));
-   if (singular_ || open_.empty()) { return !singular_; }
-   X_ = s.K(open_, closed_);
-   open_factor_.solve_half(X_);
-   K_ = minus_square(std::move(K_), X_);
-   return true;
+   if (rows_ == rows) { return !singular_; }
+   origin_ = {};
+   slipping_.clear();
+   slips_.clear();
+   singular_ = !open_rows_.eliminate(s.K, rows, anew, s.counters);
+   rows_ = std::move(rows);
+   return !singular_;
 }
 
 /// The nodes that slip, and the stiffness between them: {q; p} by {x}.
 void DiscEquations::gather(const Increment &at)
 {
+   const FrictionSystem &s = at.system;
    std::vector<Index> slipping;
-   for (Index i = 0; i < at.system.n; ++i)
+   for (Index i = 0; i < s.n; ++i)
    {
       if (slips(at.status[i])) { slipping.push_back(i); }
    }
    if (slipping == slipping_) { return; }
    slipping_ = slipping;
-   const auto count = static_cast<Index>(slipping.size());
    std::vector<Index> rows;
-   for (Index k = 0; k < (at.system.problem.coupled ? 3 : 2); ++k)
+   for (Index k = 0; k < (s.problem.coupled ? 3 : 2); ++k)
    {
-      for (const Index i : slipping) { rows.push_back(place_[i] + k * closed_nodes_); }
+      for (const Index i : slipping) { rows.push_back(s.t(i, k)); }
    }
-   const std::vector<Index> columns(rows.begin(), rows.begin() + 2 * count);
-   of_slip_ = K_(rows, columns);
+   slips_.assign(rows.begin(), rows.begin() + 2 * static_cast<Index>(slipping.size()));
+   of_slip_ = open_rows_.stiffness(rows, slips_);
 }
 
 /// Forces of the closed nodes if all nodes are at u and the open nodes then move until they
 /// carry no force.
 DiscEquations::Origin DiscEquations::origin_at(const Increment &at, const VectorXd &u) const
 {
-   const VectorXd forces = at.f + at.system.product->times(u);
-   Origin origin{u, forces(closed_), {}};
-   if (!open_.empty())
-   {
-      origin.lift = forces(open_);
-      open_factor_.solve_half(origin.lift);
-      origin.forces -= X_.transpose() * origin.lift;
-   }
-   return origin;
+   return {u, open_rows_.origin(at.f + at.system.product->times(u))};
 }
 
 DiscEquations::Linearised DiscEquations::linearise(const Increment &at) const
@@ -117,12 +100,13 @@ VectorXd DiscEquations::imbalance(const Increment &at, const Origin &from) const
    VectorXd off(2 * count);
    for (Index r = 0; r < count; ++r)
    {
-      const Index i = slipping_[r], k = place_[i];
+      const Index i = slipping_[r];
       const DiscSlip &to = at.direction[i];
-      const Vector2d q(from.forces[k], from.forces[k + closed_nodes_]);
+      const VectorXd &forces = from.open.forces;
+      const Vector2d q(forces[s.t(i, 0)], forces[s.t(i, 1)]);
       const Vector2d slip = at.along(from.u, i) - at.along(at.start.v, i);
       // B = 0: slip does not change the pressure, which is known.
-      const double p = s.problem.coupled ? from.forces[k + 2 * closed_nodes_] : at.F[s.m(i)];
+      const double p = s.problem.coupled ? forces[s.m(i)] : at.F[s.m(i)];
       // A bound with bends is replaced by the line of its piece at the present pressure.
       const FrictionBound line = s.bound[i].straight(std::max(at.F[s.m(i)], 0.0));
       off[r] = to.n.dot(q) - line.line(p);
@@ -314,32 +298,16 @@ bool DiscEquations::solve(Increment &at)
       origin_ = origin_at(at, u);
    }
    const Linearised equations = linearise(at);
-   const auto count = static_cast<Index>(slipping_.size());
    for (bool again = false;; again = true)
    {
       // 4. The slip that solves the equations …
       const Origin from = again ? origin_at(at, at.u) : origin_;
-      VectorXd x(2 * count);
-      for (Index r = 0; r < 2 * count; ++r)
-      {
-         const Index row = s.t(slipping_[r % count], r / count);
-         x[r] = from.u[row] - at.u[row];
-      }
+      VectorXd x = from.u(slips_) - at.u(slips_);
       if (!solve_slip(at, equations, imbalance(at, from), x)) { return false; }
       at.u = from.u;
-      MatrixXd lift = from.lift;
-      for (Index r = 0; r < 2 * count; ++r)
-      {
-         const Index k = r / count, i = slipping_[r % count];
-         at.u[s.t(i, k)] -= x[r];
-         if (!open_.empty()) { lift -= x[r] * X_.col(place_[i] + k * closed_nodes_); }
-      }
+      at.u(slips_) -= x;
       // 5. … and the displacements of the open nodes that follow.
-      if (!open_.empty())
-      {
-         open_factor_.solve_other_half(lift);
-         at.u(open_) -= lift;
-      }
+      open_rows_.follow(from.open, slips_, -x, at.u);
       // 6. Solve once more from there, if refinement is on, or if the round-off of the origin
       // is a large part of the result.
       if (again || !(refines_ || cancels(s.K.diagonal(), from.u, at.u))) { break; }

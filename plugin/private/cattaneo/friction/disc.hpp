@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/dense_lu.hpp>
 #include <cattaneo/friction/contact_law.hpp>
+#include <cattaneo/friction/open_rows.hpp>
 
 namespace cattaneo
 {
@@ -35,13 +35,11 @@ public:
    void refine() { refines_ = true; }
 
 private:
-   /// Displacements and forces from which slip is counted, with the open nodes' share of the
-   /// forces.
+   /// Displacements and forces from which slip is counted.
    struct Origin
    {
       VectorXd u;
-      VectorXd forces; // {q; p} of the closed nodes
-      MatrixXd lift;   // L⁻¹ forces of the open nodes, a column
+      OpenRows::Origin open;
    };
    /// The linearised equations of each slipping node, along the trial force and across it.
    struct Linearised
@@ -61,16 +59,13 @@ private:
    bool iterate(const Linearised &equations, const VectorXd &r, VectorXd &x) const;
    bool solve_slip(Increment &at, const Linearised &equations, const VectorXd &b, VectorXd &x);
 
-   // Data that depend only on node states are kept from increment to increment.
-   std::vector<signed char> is_open_; // for each node; empty: nothing is eliminated yet
-   std::vector<Index> open_, closed_; // rows of K: all components of the open, closed nodes
-   std::vector<Index> place_;         // of a closed node's first component among `closed_`
-   Index closed_nodes_ = 0;
-   DenseCholesky open_factor_; // L Lᵀ of the open ones
-   MatrixXd X_;                // L⁻¹ K(open, closed)
-   MatrixXd K_;                // K(closed, closed) - Xᵀ X
+   // Data that depend only on node states are kept from increment to increment, but borders of
+   // the open rows are not.
+   OpenRows open_rows_;
+   std::vector<RowState> rows_; // states of all rows of K; empty: nothing is eliminated yet
    bool singular_ = false;
    std::vector<Index> slipping_; // nodes
+   std::vector<Index> slips_;    // their tangential rows of K
    MatrixXd of_slip_;            // forces on the slipping nodes by their slips
 
    // Data of one increment.
@@ -78,6 +73,7 @@ private:
    DenseLU factor_;              // of the equations of an earlier step
    std::vector<Index> factored_; // their nodes; empty: no factor
    bool refines_ = false;
+   bool anew_ = true; // no step yet
 };
 
 /// Semismooth Newton steps from the present states, until the laws hold or the residual stops
