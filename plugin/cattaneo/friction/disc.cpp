@@ -319,16 +319,22 @@ bool DiscEquations::solve(Increment &at)
 namespace
 {
 
+/// How many nodes changed their state, and how many of these opened or closed.
+struct Changes
+{
+   Index states = 0, contacts = 0;
+};
+
 /// Takes the states in which the natural map has the nodes, and their directions of slip. A
 /// node that closes starts with slip if it has moved along the surface. If it stuck first,
-/// Newton's steps would repeat themselves. @return how many nodes changed their state
-Index take_natural_states(Increment &at)
+/// Newton's steps would repeat themselves.
+Changes take_natural_states(Increment &at)
 {
    const FrictionSystem &s = at.system;
    // Violations that are too small to change a state.
    const VectorXd tiny =
       (0.5 * at.round_off()).cwiseMax(0.1 * s.settings.tolerance * at.reference);
-   Index changed = 0;
+   Changes changed;
    for (Index i = 0; i < s.n; ++i)
    {
       const ContactNode node = at.node(i);
@@ -343,7 +349,8 @@ Index take_natural_states(Increment &at)
       {
          at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
       }
-      changed += next != now;
+      changed.states += next != now;
+      changed.contacts += closed(next) != closed(now);
       at.status[i] = next;
    }
    return changed;
@@ -357,7 +364,9 @@ bool newton_in_the_disc(Increment &at)
    take_natural_states(at);
    Increment::Place best;
    double least = std::numeric_limits<double>::infinity(), before = least;
-   int patience = 8;
+   constexpr int enough = 8;
+   int patience = enough;
+   Index fewest = at.system.n;
    for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
    {
       // 1. The linear equations of the present states and directions.
@@ -370,14 +379,19 @@ bool newton_in_the_disc(Increment &at)
          best = {at.u, at.status};
       }
       // 2. Their solution is the end if its states are the same.
-      const bool same = take_natural_states(at) == 0;
+      const Changes changed = take_natural_states(at);
+      const bool same = changed.states == 0;
       if (same && small && at.ends_here()) { return true; }
-      // 3. The steps end if the residual has not fallen for some time. If the states do not
-      // change, the solution is the same, and more steps can only refine it.
-      if (size < 0.5 * before)
+      // 3. The steps end if for some time neither the residual has fallen nor fewer nodes have
+      // opened or closed. Where contact recedes over many nodes the residual falls only at the
+      // end. If the states do not change, the solution is the same, and more steps can only
+      // refine it.
+      const bool fewer = changed.contacts > 0 && changed.contacts < fewest;
+      fewest = std::min(fewest, changed.contacts);
+      if (size < 0.5 * before || fewer)
       {
-         before = size;
-         patience = 8;
+         before = size < 0.5 * before ? size : before;
+         patience = enough;
          continue;
       }
       --patience;
