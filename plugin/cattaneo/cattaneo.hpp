@@ -4,6 +4,7 @@
 #include <cattaneo/contact/interfaces_of_bodies.hpp>
 #include <cattaneo/contact/vibrating_body.hpp>
 #include <cattaneo/core.hpp>
+#include <cattaneo/elastic/mass.hpp>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/elastic/rotation.hpp>
 #include <cattaneo/elastic/statements.hpp>

@@ -19,6 +19,9 @@ endfunction()
 function(extract page heading program)
    file(READ ${SOURCE}/${page} text)
    string(FIND "${text}" "${heading}\n" begin)
+   if(begin EQUAL -1)
+      message(FATAL_ERROR "${page} has no line '${heading}'")
+   endif()
    string(SUBSTRING "${text}" ${begin} -1 text)
    string(FIND "${text}" "```cpp\n" begin)
    if(begin EQUAL -1)
@@ -35,7 +38,7 @@ extract(docs/embedding.md "# Contact in an MFEM program" ${project}/doors)
 extract(docs/embedding.md "## Core alone" ${project}/core/bars)
 extract(docs/exchange.md "## In a program" ${project}/core/laps)
 # The march that is watched has no program around it on its page.
-extract(docs/embedding.md "A long march is watched, stopped and taken up again:" ${project}/watched)
+extract(docs/embedding.md "A long march can be watched, stopped and continued:" ${project}/watched)
 file(READ ${project}/watched.cpp watched)
 file(APPEND ${project}/doors.cpp "#include <atomic>
 using namespace cattaneo;
