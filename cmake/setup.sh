@@ -186,6 +186,7 @@ prepare()
       printf '%s' "$packages" >"$deps/packages-$flavour"
    fi
    bring_mfem
+   [ -n "${python_job:-}" ] && wait $python_job # ./test brings it meanwhile
    [ -d "$deps/python" ] && CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_PYTEST=$PWD/$deps/python/bin/python"
    if [ -d "$deps/python" ] && { [ "$flavour$build_type" = serialRelease ] || [ -n "${with_python:-}" ]; }; then
       CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_PYTHON=ON -DPython_EXECUTABLE=$PWD/$deps/python/bin/python"

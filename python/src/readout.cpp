@@ -125,7 +125,7 @@ void bind_zones(nb::module_ &m)
          [](const NamedZone &self)
          { return self.none() ? 0.0 : self.zone.to.position - self.zone.from.position; },
          "along the line; 0: there is no such zone")
-      .def("__repr__", &brief);
+      .def("__repr__", [](const NamedZone &self) { return brief(self); });
 
    m.def(
       "zones",
