@@ -35,7 +35,9 @@
 #include <cattaneo/joints/vibration.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/readout/areas.hpp>
+#include <cattaneo/readout/places.hpp>
 #include <cattaneo/readout/small_displacements.hpp>
+#include <cattaneo/reduced/contact_motions.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>
