@@ -5,7 +5,7 @@
 set(helpers_with_mfem "/support/(axisymmetric_integrator|cylinders|elastic_support|meshes_of_lines|punch_problem|two_blocks)\\.cpp$")
 
 # With CMAKE_UNITY_BUILD so many bytes of tests are compiled as one file: more take less time, and more memory.
-# Those of unit tests have MFEM, which takes half of the memory that a job may have.
+# Those of these kinds have MFEM, which takes half of the memory that a job may have.
 set(bytes_of_tests 30000)
 set(bytes_of_unit_tests 20000)
 
